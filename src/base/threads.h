@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Threads and clocks: OpenMP where the compiler has it, one thread otherwise. */
+#ifndef BASE_THREADS_H
+#define BASE_THREADS_H
+
+/* Sets how many threads parallel loops may use; 0 keeps the default (all processors). */
+void threads_set(int count);
+
+/* How many threads parallel loops may use. */
+int threads_available(void);
+
+/* Number of the calling thread, from 0. */
+int threads_self(void);
+
+/* Seconds of wall time since some fixed moment. */
+double threads_clock(void);
+
+/* Hot loops over small vectors are compiled once for plain processors and once for AVX2, and
+ * the faster fitting one is picked when the program is loaded. Products and sums are never
+ * contracted (-ffp-contract=off), so both give the same bits. Clang's clones (up to 14 at least)
+ * don't link across files: there NATIVE=1 is the way to faster loops. */
+#if defined(__x86_64__) && defined(__linux__) && !defined(__clang__) && !defined(NO_CLONES)
+#define THREADS_VECTORISED __attribute__((target_clones("avx2", "default")))
+#else
+#define THREADS_VECTORISED
+#endif
+
+#endif

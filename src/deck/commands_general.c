@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* General information: title, counts, end, include. */
+#include "base/memory.h"
+#include "deck/reader.h"
+
+#include <stddef.h>
+#include <string.h>
+
+enum { MOST_FILES = 1000 };
+
+static void read_title(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)values;
+    memory_free(reader->scene->title);
+    reader->scene->title = text_rest_of_line(reader->text, word);
+}
+
+static void read_bodies(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)values;
+    if (reader->scene->n_bodies > 0)
+        diagnostics_error(reader->diagnostics, word->place, "'nbbo' has to come before the first 'part'");
+    reader->has_bodies_declared = true;
+}
+
+static void read_particles(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)values;
+    if (reader->scene->n_bodies > 0)
+        diagnostics_error(reader->diagnostics, word->place, "'nbmp' has to come before the first 'part'");
+    reader->has_particles_declared = true;
+}
+
+static void read_materials(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)values;
+    if (reader->scene->n_materials > 0)
+        diagnostics_error(reader->diagnostics, word->place, "'nmat' has to come before 'mate'");
+    reader->has_materials_declared = true;
+}
+
+static void read_end(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    (void)values;
+    reader->ended = true;
+}
+
+/* The path of an included file, seen from the folder of the deck that names it. Caller frees. */
+static char *path_from(const char *deck, const char *name, size_t length)
+{
+    const char *slash = strrchr(deck, '/');
+    size_t folder = slash && name[0] != '/' ? (size_t)(slash - deck) + 1 : 0;
+    char *path = memory_array(folder + length + 1, 1, "a file name");
+    memcpy(path, deck, folder);
+    memcpy(path + folder, name, length);
+    return path;
+}
+
+static void read_include(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    const struct deck_word *file = &values[0].word;
+    const char *name = file->text;
+    size_t length = file->length;
+    if (*name == '"') {
+        name++;
+        length -= length > 1 && name[length - 2] == '"' ? 2 : 1;
+    }
+    char *path = path_from(text_file(reader->text, file->place.file)->name, name, length);
+    int failure = 0;
+    if (text_is_open(reader->text, path) || text_file_count(reader->text) > MOST_FILES)
+        diagnostics_error(reader->diagnostics, file->place, "'%s' includes itself", path);
+    else
+        failure = text_include_file(reader->text, path);
+    if (failure)
+        diagnostics_error(reader->diagnostics, file->place, "cannot read '%s': %s", path, strerror(failure));
+    memory_free(path);
+}
+
+const struct keyword general_keywords[] = {
+    {.name = "mpm3", .long_name = "mpm3d", .apply = read_title, .doc = "title: the whole line"},
+    {.name = "nbco", .arguments = (const struct argument[]){{"components", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
+     .field = offsetof(struct scene, components), .doc = "number of components (velocity fields for contact)"},
+    {.name = "nbbo", .arguments = (const struct argument[]){{"bodies", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
+     .field = offsetof(struct scene, bodies_declared), .apply = read_bodies,
+     .doc = "number of bodies; before part, load, velo"},
+    {.name = "nbmp", .arguments = (const struct argument[]){{"particles", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
+     .field = offsetof(struct scene, particles_declared), .apply = read_particles,
+     .doc = "number of particles; before mate, part, curv"},
+    {.name = "nmat", .arguments = (const struct argument[]){{"materials", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
+     .field = offsetof(struct scene, materials_declared), .apply = read_materials,
+     .doc = "number of materials; before mate"},
+    {.name = "incl", .long_name = "include",
+     .arguments = (const struct argument[]){{"file", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}}, .apply = read_include,
+     .doc = "reads another file here; its path is seen from this deck's folder, in quotes if it has blanks"},
+    {.name = "endi", .long_name = "endinput", .apply = read_end, .doc = "end of the deck; what follows is ignored"},
+    {0}};
+
+void reader_finish_general(struct reader *reader, struct deck_place end)
+{
+    struct scene *scene = reader->scene;
+    if (scene->n_bodies == 0)
+        diagnostics_error(reader->diagnostics, end, "the deck has no particles; expected a 'part' block");
+    else if (scene->n_particles == 0)
+        diagnostics_error(reader->diagnostics, scene->bodies[0].place, "the bodies of this deck hold no particle");
+    else if ((long)scene->n_bodies < scene->bodies_declared)
+        diagnostics_warning(reader->diagnostics, end, "nbbo says %ld bodies, the deck has %zu", scene->bodies_declared,
+                            scene->n_bodies);
+    else if (scene->n_particles < scene->particles_declared)
+        diagnostics_warning(reader->diagnostics, end, "nbmp says %ld particles, the deck has %ld",
+                            scene->particles_declared, scene->n_particles);
+    if (!scene->title)
+        scene->title = memory_text("mpm3d", 5);
+}

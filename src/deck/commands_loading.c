@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Loading: the load and velo blocks. */
+#include "base/memory.h"
+#include "deck/reader.h"
+
+#include <stddef.h>
+#include <string.h>
+#include <strings.h>
+
+#define ID(name) {name, NULL, ARGUMENT_INTEGER, LIMIT_COUNT}
+#define VECTOR(a, b, c, unit)                                                                                        \
+    {a, unit, ARGUMENT_REAL, LIMIT_NONE}, {b, unit, ARGUMENT_REAL, LIMIT_NONE}, {c, unit, ARGUMENT_REAL, LIMIT_NONE}, \
+    {0}
+
+static bool check_target(struct reader *reader, const struct value *id, bool is_body)
+{
+    const struct scene *scene = reader->scene;
+    return is_body ? reader_check_id(reader, id, (long)scene->n_bodies, "body")
+                   : reader_check_id(reader, id, scene->particles_declared, "particle");
+}
+
+/* Adds a load whose target is values[id] and whose vector starts at values[id + 1]. */
+static void add_load(struct reader *reader, enum scene_load_kind kind, const struct value *values, int id,
+                     struct scene_load load)
+{
+    struct scene *scene = reader->scene;
+    bool is_body = kind == LOAD_BODY || kind == LOAD_GRAVITY || kind == LOAD_FACE;
+    if (!check_target(reader, &values[id], is_body))
+        return;
+    load.kind = kind;
+    load.target = values[id].integer - 1;
+    load.place = values[id].word.place;
+    for (int a = 0; a < 3; a++)
+        load.value[a] = values[id + 1 + a].real;
+    scene->loads = memory_grow(scene->loads, &scene->loads_capacity, scene->n_loads + 1, sizeof load, "loads");
+    scene->loads[scene->n_loads++] = load;
+}
+
+static void load_particle(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    add_load(reader, LOAD_PARTICLE, values, 0, (struct scene_load){0});
+}
+
+static void load_density(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    add_load(reader, LOAD_DENSITY, values, 0, (struct scene_load){0});
+}
+
+static void load_body(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    add_load(reader, LOAD_BODY, values, 0, (struct scene_load){0});
+}
+
+static void load_gravity(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    add_load(reader, LOAD_GRAVITY, values, 0, (struct scene_load){0});
+}
+
+static void load_face(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    static const char *const sides[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
+    for (int i = 0; i < 6; i++)
+        if (values[0].word.length == 2 && strncasecmp(values[0].word.text, sides[i], 2) == 0) {
+            add_load(reader, LOAD_FACE, values, 1, (struct scene_load){.axis = i / 2, .side = i % 2 ? 1 : -1});
+            return;
+        }
+    diagnostics_error(reader->diagnostics, values[0].word.place, "a face must be x-, x+, y-, y+, z- or z+");
+}
+
+const struct keyword load_keywords[] = {
+    {.name = "part", .arguments = (const struct argument[]){ID("particle"), VECTOR("fx", "fy", "fz", "force")},
+     .apply = load_particle, .doc = "force on a particle"},
+    {.name = "body", .arguments = (const struct argument[]){ID("body"), VECTOR("fx", "fy", "fz", "force")},
+     .apply = load_body, .doc = "the same force on each particle of a body"},
+    {.name = "grav", .arguments = (const struct argument[]){ID("body"), VECTOR("gx", "gy", "gz", "length/time^2")},
+     .apply = load_gravity, .doc = "acceleration of a body"},
+    {.name = "node", .arguments = (const struct argument[]){ID("particle"), VECTOR("fx", "fy", "fz", "force/length^3")},
+     .apply = load_density, .doc = "force per volume on a particle, times its initial volume"},
+    {.name = "face",
+     .arguments = (const struct argument[]){{"face", NULL, ARGUMENT_WORD, LIMIT_NONE}, ID("body"),
+                                            VECTOR("tx", "ty", "tz", "force/length^2")},
+     .apply = load_face,
+     .doc = "traction per initial area on the outermost particle layer of a body on side x- x+ y- y+ z- z+"},
+    {0}};
+
+static void add_velocity(struct reader *reader, enum scene_velocity_kind kind, const struct value *values)
+{
+    struct scene *scene = reader->scene;
+    if (!check_target(reader, &values[0], kind == VELOCITY_BODY))
+        return;
+    struct scene_velocity velocity = {kind, values[0].integer - 1, {values[1].real, values[2].real, values[3].real},
+                                      values[0].word.place};
+    scene->velocities = memory_grow(scene->velocities, &scene->velocities_capacity, scene->n_velocities + 1,
+                                    sizeof velocity, "velocities");
+    scene->velocities[scene->n_velocities++] = velocity;
+}
+
+static void velocity_particle(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    add_velocity(reader, VELOCITY_PARTICLE, values);
+}
+
+static void velocity_body(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    add_velocity(reader, VELOCITY_BODY, values);
+}
+
+const struct keyword velocity_keywords[] = {
+    {.name = "node", .arguments = (const struct argument[]){ID("particle"), VECTOR("vx", "vy", "vz", "length/time")},
+     .apply = velocity_particle, .doc = "velocity of a particle"},
+    {.name = "body", .arguments = (const struct argument[]){ID("body"), VECTOR("vx", "vy", "vz", "length/time")},
+     .apply = velocity_body, .doc = "velocity of all particles of a body"},
+    {.name = "vsin", .doc = "sine of y", .later = "built-in velocity fields"},
+    {.name = "ksin", .doc = "sine along rows", .later = "built-in velocity fields"},
+    {.name = "nuli", .doc = "bending mode", .later = "built-in velocity fields"},
+    {0}};
+
+static void read_block(struct reader *reader, const struct deck_word *word, const struct keyword *table,
+                       const char *end, const char *owner)
+{
+    if (!reader->has_bodies_declared)
+        diagnostics_error(reader->diagnostics, word->place, "'%s' needs 'nbbo' before it", owner);
+    reader_block(reader, table, end, owner);
+}
+
+static void read_loads(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)values;
+    read_block(reader, word, load_keywords, "endl", "load");
+}
+
+static void read_velocities(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)values;
+    read_block(reader, word, velocity_keywords, "endv", "velo");
+}
+
+const struct keyword loading_keywords[] = {
+    {.name = "load", .apply = read_loads, .doc = "block of forces, gravity and tractions, up to endl",
+     .details = "load\n  kind target x y z ...\nendl\nA later line for the same target replaces an earlier one; "
+                "tractions add up. The kinds:"},
+    {.name = "velo", .apply = read_velocities, .doc = "block of initial velocities, up to endv",
+     .details = "velo\n  kind target vx vy vz ...\nendv\nThe kinds:"},
+    {.name = "QuLo", .doc = "slow loading ramp", .later = "quasi-static loading"},
+    {0}};
+
+/* Particle targets were checked against nbmp; the deck may have created fewer. */
+void reader_finish_targets(struct reader *reader)
+{
+    const struct scene *scene = reader->scene;
+    for (size_t i = 0; i < scene->n_loads; i++) {
+        const struct scene_load *load = &scene->loads[i];
+        if ((load->kind == LOAD_PARTICLE || load->kind == LOAD_DENSITY) && load->target >= scene->n_particles)
+            diagnostics_error(reader->diagnostics, load->place, "particle %ld does not exist; the deck has %ld",
+                              load->target + 1, scene->n_particles);
+    }
+    for (size_t i = 0; i < scene->n_velocities; i++)
+        if (scene->velocities[i].kind == VELOCITY_PARTICLE && scene->velocities[i].target >= scene->n_particles)
+            diagnostics_error(reader->diagnostics, scene->velocities[i].place,
+                              "particle %ld does not exist; the deck has %ld", scene->velocities[i].target + 1,
+                              scene->n_particles);
+    for (size_t i = 0; i < scene->n_curves; i++)
+        if (!scene->curves[i].is_near && scene->curves[i].particle >= scene->n_particles)
+            diagnostics_error(reader->diagnostics, scene->curves[i].place,
+                              "particle %ld does not exist; the deck has %ld", scene->curves[i].particle + 1,
+                              scene->n_particles);
+}

@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Post-processing output: intervals, result names, curves, file styles. */
+#include "base/memory.h"
+#include "deck/reader.h"
+
+#include <stddef.h>
+#include <string.h>
+#include <strings.h>
+
+/* The row of a result name; reports unknown and unavailable ones and returns NULL. */
+static const struct result *find_result(struct reader *reader, const struct deck_word *word)
+{
+    char name[40];
+    const struct result *row = result_find(text_copy(word, name, sizeof name));
+    if (row && row->later) {
+        diagnostics_error(reader->diagnostics, word->place, "result '%s' is not available in this version: %s",
+                          row->name, row->later);
+        return NULL;
+    }
+    if (row)
+        return row;
+    int best = 99, count;
+    const struct result *rows = result_rows(&count);
+    const char *nearest = NULL;
+    for (int i = 0; i < count; i++) {
+        int distance = keyword_distance(name, rows[i].name);
+        if (distance >= 0 && distance < best) {
+            best = distance;
+            nearest = rows[i].name;
+        }
+    }
+    reader_unknown(reader, word, "result", nearest);
+    return NULL;
+}
+
+static void read_output_interval(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)values;
+    reader->has_output_interval = true;
+    reader->output_interval_place = word->place;
+}
+
+static void read_tecplot(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    (void)values;
+    reader->scene->writes_animation = true;
+}
+
+static void read_result(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    struct scene *scene = reader->scene;
+    const struct result *row = find_result(reader, &values[0].word);
+    if (!row || strcmp(row->name, "mat") == 0) /* mat is always the first column */
+        return;
+    scene->results = memory_grow(scene->results, &scene->results_capacity, scene->n_results + 1,
+                                 sizeof *scene->results, "results");
+    scene->results[scene->n_results++] = row;
+}
+
+static void add_curve(struct scene *scene, struct scene_curve curve)
+{
+    scene->curves = memory_grow(scene->curves, &scene->curves_capacity, scene->n_curves + 1, sizeof curve, "curves");
+    scene->curves[scene->n_curves++] = curve;
+}
+
+static void read_curve(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    struct scene_curve curve = {.result = find_result(reader, &values[0].word), .place = values[0].word.place};
+    struct deck_word next;
+    struct value id = {.integer = 1};
+    bool has_id = !reader_at_line_end(reader) && text_peek(reader->text, &next) && next.length > 0
+               && strchr("0123456789+-.", next.text[0]);
+    if (!reader->has_particles_declared)
+        diagnostics_error(reader->diagnostics, word->place, "'curv' needs 'nbmp' before it");
+    if (has_id) {
+        struct value read[2];
+        if (!reader_values(reader, (const struct argument[]){{"particle", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
+                           "curv", read)) {
+            reader_skip_line(reader);
+            return;
+        }
+        id = read[0];
+        curve.place = id.word.place;
+        if (reader->has_particles_declared
+            && !reader_check_id(reader, &id, reader->scene->particles_declared, "particle"))
+            return;
+    }
+    curve.particle = id.integer - 1;
+    if (curve.result)
+        add_curve(reader->scene, curve);
+}
+
+static void read_near_curve(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    struct scene_curve curve = {.result = find_result(reader, &values[0].word), .is_near = true, .place = word->place};
+    for (int a = 0; a < 3; a++)
+        curve.point[a] = values[1 + a].real;
+    if (reader->scene->cell_size <= 0)
+        diagnostics_error(reader->diagnostics, word->place, "'curx' needs 'dcel' before it");
+    else if (reader->scene->n_particles == 0 && diagnostics_errors(reader->diagnostics) == 0)
+        diagnostics_error(reader->diagnostics, word->place, "'curx' needs all particles before it");
+    else if (curve.result)
+        add_curve(reader->scene, curve);
+}
+
+/* A word that must be one of two; stores whether it was the first. */
+static void read_choice(struct reader *reader, const struct value *value, const char *first, const char *second,
+                        const char *owner, bool *is_first)
+{
+    char word[40];
+    text_copy(&value->word, word, sizeof word);
+    if (strncasecmp(word, first, 4) != 0 && strncasecmp(word, second, 4) != 0)
+        diagnostics_error(reader->diagnostics, value->word.place, "%s must be %s or %s, not '%s'", owner, first, second,
+                          word);
+    else
+        *is_first = strncasecmp(word, first, 4) == 0;
+}
+
+static void read_names(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    read_choice(reader, &values[0], "mpm3d", "job", "names", &reader->scene->bare_names);
+}
+
+static void read_headers(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    read_choice(reader, &values[0], "mpm3d", "tecplot", "head", &reader->scene->bare_headers);
+}
+
+#define INTERVAL ((const struct argument[]){{"interval", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}})
+#define RESULT {"result", NULL, ARGUMENT_WORD, LIMIT_NONE}
+#define LENGTH(name) {name, "length", ARGUMENT_REAL, LIMIT_NONE}
+
+const struct keyword output_keywords[] = {
+    {.name = "outt", .long_name = "outtime", .arguments = INTERVAL, .field = offsetof(struct scene, output_interval),
+     .apply = read_output_interval, .doc = "interval of the animation output; after endt, which sets it too"},
+    {.name = "rptt", .long_name = "rpttime", .arguments = INTERVAL, .field = offsetof(struct scene, report_interval),
+     .doc = "interval of the report lines; 0 is every step"},
+    {.name = "tecp", .long_name = "tecplot", .apply = read_tecplot, .doc = "write the animation file job_anim.dat"},
+    {.name = "outr", .arguments = (const struct argument[]){RESULT, {0}}, .apply = read_result,
+     .doc = "adds a result to the animation file", .details = "outr result\nThe results:"},
+    {.name = "curv", .long_name = "curve", .arguments = (const struct argument[]){RESULT, {0}}, .apply = read_curve,
+     .doc = "adds a curve: a result of one particle (default 1), written every step",
+     .details = "curv result [particle]     (the id on the same line)\nThe results:"},
+    {.name = "curx", .arguments = (const struct argument[]){RESULT, LENGTH("x"), LENGTH("y"), LENGTH("z"), {0}},
+     .apply = read_near_curve, .doc = "adds a curve of the particle within a quarter cell of a point; after all part"},
+    {.name = "name", .long_name = "names",
+     .arguments = (const struct argument[]){{"job|mpm3d", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}}, .apply = read_names,
+     .doc = "names of the energy and momentum files: job_energy.dat, or EnergyPlot.dat as in MPM3D-F90"},
+    {.name = "head", .long_name = "header",
+     .arguments = (const struct argument[]){{"tecplot|mpm3d", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}},
+     .apply = read_headers, .doc = "headers of the tables: Tecplot's, or the bare ones of MPM3D-F90"},
+    {.name = "digi", .long_name = "digits",
+     .arguments = (const struct argument[]){{"digits", NULL, ARGUMENT_INTEGER, LIMIT_DIGITS}, {0}},
+     .field = offsetof(struct scene, digits), .doc = "significant digits in the tables (7; MPM3D-F90 has 4)"},
+    {.name = "smoo", .doc = "smoothed pressure", .later = "smoothed pressure"},
+    {.name = "para", .doc = "ParaView output", .later = "ParaView output"},
+    {0}};

@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "deck/echo.h"
+#include "deck/keyword.h"
+
+#include <string.h>
+#include <strings.h>
+
+enum { SHOWN_LINES = 20 };
+
+static const char *const face_names[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
+
+static void print_numbers(FILE *stream, const double *values, int count)
+{
+    for (int i = 0; i < count; i++)
+        fprintf(stream, " %.17g", values[i]);
+}
+
+/* Words whose arguments are stored as they are. */
+static void echo_plain(const struct scene *scene, FILE *stream, enum category category)
+{
+    const struct keyword *table = keyword_table(category);
+    for (const struct keyword *row = table; row->name; row++) {
+        bool is_given = scene->given[category] >> (row - table) & 1;
+        if (row->field == KEYWORD_NO_FIELD || strncmp(row->name, "sp", 2) == 0)
+            continue;
+        const char *field = (const char *)scene + row->field;
+        fprintf(stream, "%s", row->name);
+        for (int i = 0; i < argument_count(row->arguments); i++) {
+            if (row->arguments[i].kind == ARGUMENT_INTEGER)
+                fprintf(stream, " %ld", ((const long *)(const void *)field)[i]);
+            else
+                fprintf(stream, " %.17g", ((const double *)(const void *)field)[i]);
+        }
+        bool is_grid = strcmp(row->name, "grid") == 0;
+        fprintf(stream, "%s\n", is_given || is_grid ? "" : "   ! default");
+    }
+}
+
+static bool was_given(const struct scene *scene, enum category category, const char *name)
+{
+    const struct keyword *table = keyword_table(category);
+    return scene->given[category] >> (keyword_in(table, name) - table) & 1;
+}
+
+static void echo_solving(const struct scene *scene, FILE *stream)
+{
+    static const char *const schemes[] = {[SCHEME_USF] = "usf", [SCHEME_USL] = "usl", [SCHEME_MUSL] = "musl"};
+    static const char *const rotations[] = {[ROTATION_OFF] = "off", [ROTATION_EXPLICIT] = "on", [ROTATION_EXACT] = "exact"};
+    echo_plain(scene, stream, CATEGORY_SOLVING);
+    bool is_given = was_given(scene, CATEGORY_SOLVING, schemes[scene->scheme]);
+    fprintf(stream, "%s on%s\n", schemes[scene->scheme], is_given ? "" : "   ! default");
+    fprintf(stream, "jaum %s%s\n", rotations[scene->rotation],
+            was_given(scene, CATEGORY_SOLVING, "jaum") ? "" : "   ! default");
+    fprintf(stream, "sort %s%s\n", scene->sorts ? "on" : "off",
+            was_given(scene, CATEGORY_SOLVING, "sort") ? "" : "   ! default");
+    if (scene->kinetic_damping)
+        fprintf(stream, "drda\n");
+}
+
+static void echo_materials(const struct scene *scene, FILE *stream)
+{
+    fprintf(stream, "mate\n");
+    for (size_t i = 0; i < scene->n_materials; i++) {
+        const struct material *material = &scene->materials[i].material;
+        fprintf(stream, "  %zu %s", i + 1, material->law->name);
+        print_numbers(stream, material->parameter, argument_count(material->law->parameters));
+        fprintf(stream, "\n");
+    }
+}
+
+static void echo_points(const struct generator *generator, FILE *stream, long first, bool whole)
+{
+    for (long i = 0; i < generator->n_points; i++) {
+        if (!whole && i == SHOWN_LINES) {
+            fprintf(stream, "  ! ... %ld points more\n", generator->n_points - i);
+            break;
+        }
+        fprintf(stream, "  %ld %d", first + i + 1, generator->material + 1);
+        print_numbers(stream, &generator->points[i].mass, 1);
+        print_numbers(stream, generator->points[i].position, 3);
+        fprintf(stream, "\n");
+    }
+}
+
+static void echo_bodies(const struct scene *scene, FILE *stream, bool whole)
+{
+    for (size_t b = 0; b < scene->n_bodies; b++) {
+        const struct scene_body *body = &scene->bodies[b];
+        const struct generator *generator = &body->generator;
+        bool new_box = body->has_plot_box
+                    && (b == 0 || memcmp(body->plot_box, scene->bodies[b - 1].plot_box, sizeof body->plot_box) != 0);
+        if (new_box) {
+            fprintf(stream, "pt2d");
+            print_numbers(stream, body->plot_box, 6);
+            fprintf(stream, "\n");
+        }
+        fprintf(stream, "part %s %d", generator->row->name, body->component + 1);
+        if (!generator->row->arguments) {
+            fprintf(stream, " %ld\n", generator->n_points);
+            echo_points(generator, stream, body->first, whole);
+            continue;
+        }
+        fprintf(stream, "\n  %d %.17g %.17g", generator->material + 1, generator->density, generator->spacing);
+        for (int i = 3; i < argument_count(generator->row->arguments); i++) {
+            bool is_axis = generator->row->arguments[i].kind == ARGUMENT_WORD;
+            fprintf(stream, is_axis ? " %.0f" : " %.17g", generator->number[i - 3] + is_axis);
+        }
+        fprintf(stream, "   ! particles %ld to %ld\n", body->first + 1, body->first + body->count);
+    }
+}
+
+static void echo_loads(const struct scene *scene, FILE *stream, bool whole)
+{
+    static const char *const kinds[] = {[LOAD_PARTICLE] = "part", [LOAD_BODY] = "body", [LOAD_GRAVITY] = "grav",
+                                        [LOAD_DENSITY] = "node", [LOAD_FACE] = "face"};
+    if (scene->n_loads == 0)
+        return;
+    fprintf(stream, "load\n");
+    for (size_t i = 0; i < scene->n_loads; i++) {
+        const struct scene_load *load = &scene->loads[i];
+        if (!whole && i == SHOWN_LINES) {
+            fprintf(stream, "  ! ... %zu lines more\n", scene->n_loads - i);
+            break;
+        }
+        fprintf(stream, "  %s", kinds[load->kind]);
+        if (load->kind == LOAD_FACE)
+            fprintf(stream, " %s", face_names[2 * load->axis + (load->side > 0)]);
+        fprintf(stream, " %ld", load->target + 1);
+        print_numbers(stream, load->value, 3);
+        fprintf(stream, "\n");
+    }
+    fprintf(stream, "endl\n");
+}
+
+static void echo_velocities(const struct scene *scene, FILE *stream, bool whole)
+{
+    if (scene->n_velocities == 0)
+        return;
+    fprintf(stream, "velo\n");
+    for (size_t i = 0; i < scene->n_velocities; i++) {
+        const struct scene_velocity *velocity = &scene->velocities[i];
+        if (!whole && i == SHOWN_LINES) {
+            fprintf(stream, "  ! ... %zu lines more\n", scene->n_velocities - i);
+            break;
+        }
+        fprintf(stream, "  %s %ld", velocity->kind == VELOCITY_BODY ? "body" : "node", velocity->target + 1);
+        print_numbers(stream, velocity->value, 3);
+        fprintf(stream, "\n");
+    }
+    fprintf(stream, "endv\n");
+}
+
+static void echo_output(const struct scene *scene, FILE *stream)
+{
+    echo_plain(scene, stream, CATEGORY_OUTPUT);
+    fprintf(stream, "name %s\nhead %s\n", scene->bare_names ? "mpm3d" : "job", scene->bare_headers ? "mpm3d" : "tecplot");
+    if (scene->writes_animation)
+        fprintf(stream, "tecp\n");
+    for (size_t i = 0; i < scene->n_results; i++)
+        fprintf(stream, "outr %s\n", scene->results[i]->name);
+    for (size_t i = 0; i < scene->n_curves; i++) {
+        const struct scene_curve *curve = &scene->curves[i];
+        fprintf(stream, "%s %s", curve->is_near ? "curx" : "curv", curve->result->name);
+        if (curve->is_near)
+            print_numbers(stream, curve->point, 3);
+        else
+            fprintf(stream, " %ld", curve->particle + 1);
+        fprintf(stream, curve->is_near ? "   ! particle %ld\n" : "\n", curve->particle + 1);
+    }
+}
+
+void echo_scene(const struct scene *scene, FILE *stream, bool whole)
+{
+    fprintf(stream, "%s%s\n", strncasecmp(scene->title, "mpm3", 4) == 0 ? "" : "mpm3d ", scene->title);
+    echo_plain(scene, stream, CATEGORY_GENERAL);
+    echo_plain(scene, stream, CATEGORY_GRID);
+    echo_solving(scene, stream);
+    echo_materials(scene, stream);
+    echo_bodies(scene, stream, whole);
+    echo_loads(scene, stream, whole);
+    echo_velocities(scene, stream, whole);
+    echo_output(scene, stream);
+    fprintf(stream, "endi\n");
+}

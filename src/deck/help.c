@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "deck/help.h"
+#include "deck/keyword.h"
+#include "material/law.h"
+#include "particles/generate.h"
+#include "particles/results.h"
+
+#include <string.h>
+
+static void print_arguments(FILE *stream, const struct argument *arguments)
+{
+    for (int i = 0; i < argument_count(arguments); i++)
+        fprintf(stream, " %s", arguments[i].name);
+}
+
+static void print_argument_table(FILE *stream, const struct argument *arguments)
+{
+    static const char *const kinds[] = {
+        [ARGUMENT_REAL] = "number", [ARGUMENT_INTEGER] = "whole number", [ARGUMENT_WORD] = "word"};
+    for (int i = 0; i < argument_count(arguments); i++) {
+        const char *limit = argument_limit_text(arguments[i].limit);
+        fprintf(stream, "    %-12s %s", arguments[i].name, kinds[arguments[i].kind]);
+        if (arguments[i].unit)
+            fprintf(stream, ", %s", arguments[i].unit);
+        fprintf(stream, "%s%s\n", *limit ? ", " : "", limit);
+    }
+}
+
+static void print_line(FILE *stream, const char *name, const char *doc, const char *later)
+{
+    fprintf(stream, "  %-5s %s%s\n", name, doc, later ? " (not in this version)" : "");
+}
+
+void help_words(FILE *stream)
+{
+    for (int c = 0; c < CATEGORY_COUNT; c++) {
+        fprintf(stream, "\n%s\n", keyword_category_title((enum category)c));
+        for (const struct keyword *row = keyword_table((enum category)c); row->name; row++)
+            print_line(stream, row->name, row->doc, row->later);
+    }
+    fprintf(stream, "\nmpm3d --help WORD tells more of a word, law, generator or result.\n");
+}
+
+static void print_laws(FILE *stream)
+{
+    for (const struct law *const *law = law_rows(); *law; law++)
+        print_line(stream, (*law)->name, (*law)->doc, (*law)->later);
+}
+
+static void print_generators(FILE *stream)
+{
+    int count;
+    const struct generator_row *rows = generator_rows(&count);
+    for (int i = 0; i < count; i++)
+        print_line(stream, rows[i].name, rows[i].doc, NULL);
+}
+
+static void print_results(FILE *stream)
+{
+    int count;
+    const struct result *rows = result_rows(&count);
+    for (int i = 0; i < count; i++)
+        print_line(stream, rows[i].name, rows[i].doc, rows[i].later);
+}
+
+static void print_table(FILE *stream, const struct keyword *table)
+{
+    for (const struct keyword *row = table; row->name; row++) {
+        print_line(stream, row->name, row->doc, row->later);
+        fprintf(stream, "        %s", row->name);
+        print_arguments(stream, row->arguments);
+        fprintf(stream, "\n");
+    }
+}
+
+/* What belongs below a word: the rows that may stand in its block. */
+static void print_below(FILE *stream, const char *name)
+{
+    if (strcmp(name, "mate") == 0)
+        print_laws(stream);
+    else if (strcmp(name, "part") == 0)
+        print_generators(stream);
+    else if (strcmp(name, "load") == 0)
+        print_table(stream, load_keywords);
+    else if (strcmp(name, "velo") == 0)
+        print_table(stream, velocity_keywords);
+    else if (strcmp(name, "outr") == 0 || strcmp(name, "curv") == 0)
+        print_results(stream);
+}
+
+static bool help_keyword(const char *word, FILE *stream)
+{
+    enum category category;
+    const struct keyword *row = keyword_find(word, &category);
+    if (!row)
+        return false;
+    fprintf(stream, "%s", row->name);
+    print_arguments(stream, row->arguments);
+    fprintf(stream, "\n    %s%s\n    category: %s\n", row->doc, row->later ? " (not in this version)" : "",
+            keyword_category_title(category));
+    print_argument_table(stream, row->arguments);
+    if (row->details)
+        fprintf(stream, "%s\n", row->details);
+    print_below(stream, row->name);
+    return true;
+}
+
+static bool help_other(const char *word, FILE *stream)
+{
+    const struct law *law = law_find(word);
+    const struct generator_row *generator = generator_find(word);
+    const struct result *result = result_find(word);
+    if (law) {
+        fprintf(stream, "law %s", law->name);
+        print_arguments(stream, law->parameters);
+        fprintf(stream, "\n    %s%s\n", law->doc, law->later ? " (not in this version)" : "");
+        print_argument_table(stream, law->parameters);
+    }
+    if (generator) {
+        fprintf(stream, "part %s component\n   ", generator->name);
+        print_arguments(stream, generator->arguments);
+        fprintf(stream, "\n    %s\n", generator->doc);
+        print_argument_table(stream, generator->arguments);
+    }
+    if (result)
+        fprintf(stream, "result %s\n    %s%s%s%s\n", result->name, result->doc, result->unit ? ", " : "",
+                result->unit ? result->unit : "", result->later ? " (not in this version)" : "");
+    return law || generator || result;
+}
+
+bool help_word(const char *word, FILE *stream)
+{
+    bool is_keyword = help_keyword(word, stream);
+    bool is_other = help_other(word, stream);
+    if (is_keyword || is_other)
+        return true;
+    const char *nearest = keyword_nearest_top(word);
+    fprintf(stream, nearest ? "no word '%s'; did you mean '%s'?\n" : "no word '%s'; see mpm3d --help\n", word, nearest);
+    return false;
+}

@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The words of a deck: one const row each, in one table per place where a word may stand. The
+ * reader, --help, the manual and the error messages use the same rows. */
+#ifndef DECK_KEYWORD_H
+#define DECK_KEYWORD_H
+
+#include "base/argument.h"
+#include "deck/text.h"
+
+struct reader;
+
+/* The thesis's seven categories. */
+enum category {
+    CATEGORY_GENERAL,
+    CATEGORY_MATERIAL,
+    CATEGORY_GRID,
+    CATEGORY_DISCRETE,
+    CATEGORY_LOADING,
+    CATEGORY_SOLVING,
+    CATEGORY_OUTPUT,
+    CATEGORY_COUNT
+};
+
+/* An argument as read. */
+struct value {
+    double real;
+    long integer;
+    struct deck_word word;
+};
+
+enum { KEYWORD_NO_FIELD = 0, KEYWORD_ARGUMENTS = 16 };
+
+struct keyword {
+    const char *name;      /* four characters count; shorter names must be written exactly */
+    const char *long_name; /* the usual longer spelling; NULL: the name */
+    const struct argument *arguments;
+    /* Offset in struct scene of the first of as many consecutive doubles (or longs, for integers)
+     * as there are arguments, to store them; KEYWORD_NO_FIELD: only `apply` is called. */
+    size_t field;
+    /* Called after the arguments are read and stored; may be NULL. */
+    void (*apply)(struct reader *reader, const struct deck_word *word, const struct value *values);
+    const char *doc;
+    const char *details; /* sub-block syntax and order rules for --help, or NULL */
+    const char *later;   /* not NULL: known word without its feature; says what is missing */
+};
+
+/* The table of a category, ended by a row without name. */
+const struct keyword *keyword_table(enum category category);
+const char *keyword_category_title(enum category category);
+
+/* Tables of the sub-blocks of load and velo, ended by a row without name. */
+extern const struct keyword load_keywords[], velocity_keywords[];
+
+/* The row in `table` whose first four characters agree with a NUL-ended word, or NULL. */
+const struct keyword *keyword_in(const struct keyword *table, const char *word);
+
+/* The row of any top-level word, or NULL; its category goes to *category where not NULL. */
+const struct keyword *keyword_find(const char *word, enum category *category);
+
+/* Name of the keyword nearest to a misspelt word, or NULL when none is near. */
+const char *keyword_nearest(const struct keyword *table, const char *word);
+const char *keyword_nearest_top(const char *word);
+
+/* Whether two spellings are near enough for a suggestion; smaller is nearer, -1 is far. */
+int keyword_distance(const char *word, const char *name);
+
+#endif

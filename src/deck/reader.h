@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads a deck into a scene: the loop over words, and what all readers share. */
+#ifndef DECK_READER_H
+#define DECK_READER_H
+
+#include "deck/diagnostics.h"
+#include "deck/keyword.h"
+#include "deck/scene.h"
+
+struct reader {
+    struct deck_text *text;
+    struct diagnostics *diagnostics;
+    struct scene *scene;
+    bool ended;                    /* endi was read */
+    bool has_bodies_declared, has_particles_declared, has_materials_declared;
+    bool has_scheme;               /* a scheme was switched on */
+    bool has_output_interval;
+    bool has_plot_box;             /* pt2d was read: it holds for bodies that follow */
+    double plot_box[6];
+    struct deck_place output_interval_place;
+    struct deck_word last;         /* last word taken, to report what is missing behind it */
+};
+
+/* Reads the deck from `text` into a new scene. Mistakes go to `diagnostics`; when there are any
+ * the scene is incomplete and only good for closing. */
+struct scene *reader_read(struct deck_text *text, struct diagnostics *diagnostics);
+
+/* Takes the next word; false (and an error that names `what`) at the end of the deck. */
+bool reader_word(struct reader *reader, struct deck_word *word, const char *what);
+
+/* Reads the arguments of a word, checking kind and limit of each. On a mistake: reports it, skips
+ * the rest of the line and returns false. `owner` names the word in messages. */
+bool reader_values(struct reader *reader, const struct argument *arguments, const char *owner, struct value *values);
+
+/* Takes words up to, not including, the next one that begins a line. */
+void reader_skip_line(struct reader *reader);
+
+/* Whether the next word begins a line, or there is none. */
+bool reader_at_line_end(struct reader *reader);
+
+/* Whether a word reads as a whole number; its value goes to *integer. */
+bool reader_is_integer(const struct deck_word *word, long *integer);
+
+/* Whether a word reads as a real number (spec 1.4: also with d, or without exponent letter). */
+bool reader_is_real(const struct deck_word *word, double *real);
+
+/* Reports an id that is not in 1 ... count; returns whether it is in the range. */
+bool reader_check_id(struct reader *reader, const struct value *value, long count, const char *what);
+
+/* Reports the unknown word with the nearest name, or with what was expected. */
+void reader_unknown(struct reader *reader, const struct deck_word *word, const char *kind, const char *nearest);
+
+/* Reads the commands of a sub-block until the word `end`. */
+void reader_block(struct reader *reader, const struct keyword *table, const char *end, const char *owner);
+
+/* on or off; -1 and an error otherwise. */
+int reader_switch(struct reader *reader, const struct value *value, const char *owner);
+
+/* Takes an optional word of the same line if it is one of `names` (ended by NULL); returns its
+ * index or -1. */
+int reader_optional(struct reader *reader, const char *const *names);
+
+/* Checks that need the whole deck (categories' own files). */
+void reader_finish_general(struct reader *reader, struct deck_place end);
+void reader_finish_grid(struct reader *reader, struct deck_place end);
+void reader_finish_materials(struct reader *reader, struct deck_place end);
+void reader_finish_targets(struct reader *reader);
+
+#endif

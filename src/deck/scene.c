@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "deck/scene.h"
+#include "base/memory.h"
+
+struct scene *scene_open(void)
+{
+    struct scene *scene = memory_array(1, sizeof *scene, "the scene");
+    scene->components = 1;
+    scene->step_scale = 0.9;
+    scene->scheme = SCHEME_MUSL;
+    scene->rotation = ROTATION_EXPLICIT;
+    scene->bulk[0] = 1.5;
+    scene->bulk[1] = 0.06;
+    scene->sorts = true;
+    scene->digits = 7;
+    return scene;
+}
+
+void scene_close(struct scene *scene)
+{
+    if (!scene)
+        return;
+    for (size_t b = 0; b < scene->n_bodies; b++)
+        memory_free(scene->bodies[b].generator.points);
+    memory_free(scene->title);
+    memory_free(scene->job);
+    memory_free(scene->materials);
+    memory_free(scene->bodies);
+    memory_free(scene->loads);
+    memory_free(scene->velocities);
+    memory_free(scene->results);
+    memory_free(scene->curves);
+    memory_free(scene);
+}

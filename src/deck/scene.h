@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a deck says: plain data, no behaviour, no pointer into a solver. Ids count from 0 here. */
+#ifndef DECK_SCENE_H
+#define DECK_SCENE_H
+
+#include "deck/text.h"
+#include "material/law.h"
+#include "particles/generate.h"
+#include "particles/results.h"
+
+#include <stdint.h>
+
+enum scheme { SCHEME_USF, SCHEME_USL, SCHEME_MUSL };
+enum rotation { ROTATION_OFF, ROTATION_EXPLICIT, ROTATION_EXACT };
+
+struct scene_material {
+    struct material material;
+    bool is_given;
+    struct deck_place place;
+};
+
+struct scene_body {
+    int component;
+    struct generator generator;
+    long first, count;     /* particle ids first ... first + count - 1 */
+    bool has_plot_box;     /* points created outside plot_box are left out of the animation file */
+    double plot_box[6];
+    struct deck_place place;
+};
+
+enum scene_load_kind { LOAD_PARTICLE, LOAD_BODY, LOAD_GRAVITY, LOAD_DENSITY, LOAD_FACE };
+
+struct scene_load {
+    enum scene_load_kind kind;
+    long target;     /* particle or body */
+    int axis, side;  /* LOAD_FACE: 0 1 2, -1 or +1 */
+    double value[3]; /* force, acceleration, force per volume, or traction */
+    struct deck_place place;
+};
+
+enum scene_velocity_kind { VELOCITY_PARTICLE, VELOCITY_BODY };
+
+struct scene_velocity {
+    enum scene_velocity_kind kind;
+    long target;
+    double value[3];
+    struct deck_place place;
+};
+
+struct scene_curve {
+    const struct result *result;
+    long particle;     /* id; unused when near */
+    bool is_near;      /* curx: the particle near a point */
+    double point[3];
+    struct deck_place place;
+};
+
+struct scene {
+    char *title;
+    uint64_t given[8]; /* per category of words: a bit for each row of its table that the deck used */
+    char *job; /* name of the output files */
+    long components, bodies_declared, particles_declared, materials_declared;
+    double end_time, output_interval, report_interval, step_scale;
+    double grid[6]; /* x0 x1 y0 y1 z0 z1 */
+    double cell_size;
+    long boundary[6]; /* codes of the faces x- x+ y- y+ z- z+ */
+    double mass_cutoff;
+    enum scheme scheme;
+    enum rotation rotation;
+    double bulk[2]; /* artificial viscosity: quadratic, linear */
+    double damping; /* mass proportional, 1/time */
+    bool kinetic_damping;
+    bool sorts;
+    bool writes_animation, bare_names, bare_headers;
+    long digits; /* significant, in the tables */
+
+    struct scene_material *materials;
+    size_t n_materials, materials_capacity;
+    struct scene_body *bodies;
+    size_t n_bodies, bodies_capacity;
+    long n_particles;
+    struct scene_load *loads;
+    size_t n_loads, loads_capacity;
+    struct scene_velocity *velocities;
+    size_t n_velocities, velocities_capacity;
+    const struct result **results; /* of the animation file, after x y z mat */
+    size_t n_results, results_capacity;
+    struct scene_curve *curves; /* after engk and engi */
+    size_t n_curves, curves_capacity;
+};
+
+/* An empty scene with the defaults of the dialect. */
+struct scene *scene_open(void);
+void scene_close(struct scene *scene);
+
+#endif

@@ -1,0 +1,276 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "deck/text.h"
+#include "base/memory.h"
+#include "deck/diagnostics.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+/* A point in a file that is being read. */
+struct cursor {
+    int file;
+    size_t offset;
+    size_t line_start;
+    long line;
+    bool after_comma; /* a comma was passed since the last word of this line */
+    bool line_begins; /* no word taken from this line yet */
+};
+
+struct deck_text {
+    struct diagnostics *diagnostics;
+    struct deck_file *files;
+    size_t n_files, files_capacity;
+    struct cursor *stack;
+    size_t depth, stack_capacity;
+    struct deck_word peeked;
+    bool has_peeked;
+};
+
+struct deck_text *text_open(struct diagnostics *diagnostics)
+{
+    struct deck_text *text = memory_array(1, sizeof *text, "the deck");
+    text->diagnostics = diagnostics;
+    return text;
+}
+
+void text_close(struct deck_text *text)
+{
+    if (!text)
+        return;
+    for (size_t i = 0; i < text->n_files; i++) {
+        memory_free(text->files[i].name);
+        memory_free(text->files[i].text);
+    }
+    memory_free(text->files);
+    memory_free(text->stack);
+    memory_free(text);
+}
+
+/* Reads all of a stream into a growing array. Returns 0 or an errno value. */
+static int read_all(FILE *stream, char **bytes, size_t *size)
+{
+    size_t capacity = 0, used = 0;
+    char *array = NULL;
+    for (;;) {
+        array = memory_grow(array, &capacity, used + 65536, 1, "the deck");
+        size_t got = fread(array + used, 1, capacity - used, stream);
+        used += got;
+        if (got == 0)
+            break;
+    }
+    int failure = ferror(stream) ? (errno ? errno : EIO) : 0;
+    *bytes = array;
+    *size = used;
+    return failure;
+}
+
+int text_include_file(struct deck_text *text, const char *path)
+{
+    bool standard = strcmp(path, "-") == 0;
+    errno = 0;
+    FILE *stream = standard ? stdin : fopen(path, "rb");
+    if (!stream)
+        return errno ? errno : EIO;
+    char *bytes;
+    size_t size;
+    int failure = read_all(stream, &bytes, &size);
+    if (!standard)
+        fclose(stream);
+    if (!failure)
+        text_include_memory(text, standard ? "<stdin>" : path, bytes, size);
+    memory_free(bytes);
+    return failure;
+}
+
+void text_include_memory(struct deck_text *text, const char *name, const char *bytes, size_t size)
+{
+    text->files = memory_grow(text->files, &text->files_capacity, text->n_files + 1,
+                              sizeof *text->files, "the deck");
+    struct deck_file *file = &text->files[text->n_files];
+    file->name = memory_text(name, strlen(name));
+    file->text = memory_text(bytes, size);
+    file->size = size;
+    text->stack = memory_grow(text->stack, &text->stack_capacity, text->depth + 1,
+                              sizeof *text->stack, "the deck");
+    struct cursor *cursor = &text->stack[text->depth++];
+    *cursor = (struct cursor){.file = (int)text->n_files, .line = 1, .line_begins = true};
+    if (size >= 3 && memcmp(file->text, "\xEF\xBB\xBF", 3) == 0)
+        cursor->offset = 3;
+    text->n_files++;
+    const char *nul = memchr(file->text, 0, size);
+    if (nul) {
+        struct deck_place place = {cursor->file, 1, 1, (size_t)(nul - file->text)};
+        for (const char *p = file->text; p < nul; p++) {
+            place.column++;
+            if (*p == '\n') {
+                place.line++;
+                place.column = 1;
+            }
+        }
+        diagnostics_error(text->diagnostics, place, "NUL byte; a deck is plain text");
+    }
+}
+
+static struct deck_place place_of(const struct cursor *cursor)
+{
+    return (struct deck_place){cursor->file, cursor->line,
+                               (long)(cursor->offset - cursor->line_start) + 1, cursor->offset};
+}
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f' || c == '\0';
+}
+
+static bool ends_word(char c)
+{
+    return is_blank(c) || c == '\n' || c == ',' || c == '!';
+}
+
+static void pass_line_end(struct cursor *cursor)
+{
+    cursor->offset++;
+    cursor->line++;
+    cursor->line_start = cursor->offset;
+    cursor->after_comma = false;
+    cursor->line_begins = true;
+}
+
+static void pass_comma(struct deck_text *text, struct cursor *cursor)
+{
+    if (cursor->after_comma || cursor->line_begins)
+        diagnostics_error(text->diagnostics, place_of(cursor),
+                          cursor->after_comma ? "empty word between two commas; expected a word or number"
+                                              : "comma before the first word of a line");
+    cursor->after_comma = true;
+    cursor->offset++;
+}
+
+/* Moves the cursor to the next word of its file; false at the file's end. */
+static bool find_word(struct deck_text *text, struct cursor *cursor)
+{
+    const struct deck_file *file = &text->files[cursor->file];
+    while (cursor->offset < file->size) {
+        char c = file->text[cursor->offset];
+        if (c == '\n')
+            pass_line_end(cursor);
+        else if (is_blank(c))
+            cursor->offset++;
+        else if (c == ',')
+            pass_comma(text, cursor);
+        else if (c == '!')
+            while (cursor->offset < file->size && file->text[cursor->offset] != '\n')
+                cursor->offset++;
+        else
+            return true;
+    }
+    return false;
+}
+
+static bool take_word(struct deck_text *text, struct deck_word *word)
+{
+    while (text->depth > 0) {
+        struct cursor *cursor = &text->stack[text->depth - 1];
+        if (!find_word(text, cursor)) {
+            text->depth--;
+            continue;
+        }
+        const struct deck_file *file = &text->files[cursor->file];
+        word->place = place_of(cursor);
+        word->text = file->text + cursor->offset;
+        if (*word->text == '"') { /* a quoted word may hold anything but a line end */
+            size_t end = cursor->offset + 1;
+            while (end < file->size && file->text[end] != '"' && file->text[end] != '\n')
+                end++;
+            if (end < file->size && file->text[end] == '"')
+                end++;
+            cursor->offset = end;
+        } else {
+            while (cursor->offset < file->size && !ends_word(file->text[cursor->offset]))
+                cursor->offset++;
+        }
+        word->length = (size_t)(file->text + cursor->offset - word->text);
+        cursor->after_comma = false;
+        cursor->line_begins = false;
+        return true;
+    }
+    return false;
+}
+
+bool text_next(struct deck_text *text, struct deck_word *word)
+{
+    if (!text->has_peeked)
+        return take_word(text, word);
+    *word = text->peeked;
+    text->has_peeked = false;
+    return true;
+}
+
+bool text_peek(struct deck_text *text, struct deck_word *word)
+{
+    if (!text->has_peeked)
+        text->has_peeked = take_word(text, &text->peeked);
+    if (text->has_peeked)
+        *word = text->peeked;
+    return text->has_peeked;
+}
+
+char *text_rest_of_line(struct deck_text *text, const struct deck_word *from)
+{
+    const struct deck_file *file = &text->files[from->place.file];
+    size_t start = from->place.offset;
+    size_t end = start;
+    while (end < file->size && file->text[end] != '\n' && file->text[end] != '!')
+        end++;
+    char *line = memory_text(file->text + start, end - start);
+    size_t used = 0;
+    for (size_t i = 0; i < end - start; i++) {
+        char c = is_blank(line[i]) ? ' ' : line[i];
+        if (c != ' ' || (used > 0 && line[used - 1] != ' '))
+            line[used++] = c;
+    }
+    while (used > 0 && line[used - 1] == ' ')
+        used--;
+    line[used] = '\0';
+    struct cursor *cursor = text->depth > 0 ? &text->stack[text->depth - 1] : NULL;
+    if (cursor && cursor->file == from->place.file && !text->has_peeked) {
+        while (cursor->offset < file->size && file->text[cursor->offset] != '\n')
+            cursor->offset++;
+    }
+    return line;
+}
+
+bool text_is_open(const struct deck_text *text, const char *path)
+{
+    for (size_t i = 0; i < text->depth; i++)
+        if (strcmp(text->files[text->stack[i].file].name, path) == 0)
+            return true;
+    return false;
+}
+
+int text_file_count(const struct deck_text *text)
+{
+    return (int)text->n_files;
+}
+
+const struct deck_file *text_file(const struct deck_text *text, int file)
+{
+    return &text->files[file];
+}
+
+struct deck_place text_behind(const struct deck_word *word)
+{
+    struct deck_place place = word->place;
+    place.column += (long)word->length;
+    place.offset += word->length;
+    return place;
+}
+
+char *text_copy(const struct deck_word *word, char *buffer, size_t size)
+{
+    size_t length = word->length < size - 1 ? word->length : size - 1;
+    memcpy(buffer, word->text, length);
+    buffer[length] = '\0';
+    return buffer;
+}

@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Constitutive laws. Each law is one file with one const row in the table of laws.c: its
+ * parameters with units and limits, the columns it needs, and its functions. Laws work on
+ * batches of points of one material, held as structure of arrays. */
+#ifndef MATERIAL_LAW_H
+#define MATERIAL_LAW_H
+
+#include "base/argument.h"
+#include "particles/columns.h"
+
+enum { LAW_PARAMETERS = 16 };
+
+struct law;
+
+/* A material of the deck: a law with its numbers, and what follows from them once. */
+struct material {
+    const struct law *law;
+    double parameter[LAW_PARAMETERS]; /* in the order of the law's row */
+    double density;                   /* initial density rho0 */
+    double shear_modulus;             /* G */
+    double bulk_modulus;              /* K */
+    double wave_speed;                /* limits the time step (spec 5) */
+    double viscous_speed;             /* c of the linear artificial viscosity (spec 3.3) */
+    double yield_stress;              /* initial */
+};
+
+/* Points of one material in one step. Arrays have `count` entries; pointers of columns that the
+ * scene does not have are NULL. */
+struct law_batch {
+    int count;
+    const struct material *material;
+    double time_step;
+    double cell_size;
+    double bulk_quadratic, bulk_linear; /* artificial viscosity b1, b2 */
+    const double *restrict strain[6];   /* increments, engineering shears */
+    const double *restrict spin[3];     /* spin increments w1, w2, w3 (spec 6.2) */
+    const double *restrict trace;       /* volume strain increment */
+    const double *restrict volume_before;
+    const double *restrict volume;
+    const double *restrict mass;
+    double *restrict work;              /* room for one number a point */
+    double *restrict stress[6];         /* in: rotated old stress; out: new stress */
+    double *restrict energy;            /* internal energy */
+    double *restrict viscous_pressure;  /* artificial viscosity pressure q */
+    double *restrict plastic_strain;
+    double *restrict yield_stress;
+};
+
+/* A row of the table. */
+struct law {
+    const char *name; /* the word in the deck */
+    const char *doc;
+    const struct argument *parameters;
+    enum column columns[8]; /* columns beyond those of every MPM scene, ended by COLUMN_NONE */
+    bool rotates;           /* the old stress is rotated before the update (spec 6.3) */
+    const char *later;      /* not NULL: known word without its feature; says what is missing */
+    /* Derives the fields of a material from its parameters. Returns NULL, or what is wrong. */
+    const char *(*prepare)(struct material *material);
+    /* Replaces the rotated old stress by the new one. */
+    void (*update)(const struct law_batch *batch);
+};
+
+/* The row of a name (NUL-ended, four characters count), or NULL. */
+const struct law *law_find(const char *name);
+
+/* The rows in the order of the manual, ended by NULL. */
+const struct law *const *law_rows(void);
+
+/* Parameters that the elastic laws begin with. */
+enum { LAW_DENSITY, LAW_YOUNG, LAW_POISSON };
+
+/* Fills density, moduli and wave speed from rho, E, nu, and the plane wave speed as viscous
+ * speed when `has_viscous_speed` (spec 3.3: only elas and neoh have one). */
+void law_prepare_elastic(struct material *material, bool has_viscous_speed);
+
+/* Rotation of the old stress by the spin increments, explicit (spec 6.3). */
+void law_rotate_explicit(const struct law_batch *batch);
+
+/* Rotation by the orthogonal tensor (1 - W/2)^-1 (1 + W/2) of Hughes and Winget (Int. J. Numer.
+ * Meth. Engng 15, 1980): invariants of the stress are kept to round-off. */
+void law_rotate_exact(const struct law_batch *batch);
+
+/* Energy of the laws without equation of state, before and after the update (spec 6.5, 6.6):
+ * the first keeps the old part of the work, the second adds the new part, the artificial
+ * viscosity where the mean stress is negative, and puts the sum into the internal energy. */
+void law_energy_before(const struct law_batch *batch);
+void law_energy_after(const struct law_batch *batch);
+
+/* The elastic trial stress: rotated old stress plus Hooke's increment of one point. */
+static inline void law_elastic_trial(const struct law_batch *batch, int j, double shear, double bulk, double trial[6])
+{
+    double third = batch->trace[j] / 3;
+    double pressure = bulk * batch->trace[j];
+    for (int a = 0; a < 3; a++) {
+        trial[a] = batch->stress[a][j] + 2 * shear * (batch->strain[a][j] - third) + pressure;
+        trial[a + 3] = batch->stress[a + 3][j] + shear * batch->strain[a + 3][j];
+    }
+}
+
+extern const struct law law_elas, law_pla1, law_pla2;
+
+#endif

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Particles of a block in portions that fit the first-level cache. A portion that lies in one
+ * piece in memory is worked on in place, others are copied to the thread's workspace and back. */
+#ifndef MPM_CHUNK_H
+#define MPM_CHUNK_H
+
+#include "mpm/mpm.h"
+
+enum {
+    CHUNK_PARTICLES = 64,
+    LANES = 4,                          /* particles whose grid values are evaluated together */
+    CHUNK_ROOM = CHUNK_PARTICLES + LANES /* a cell's last lanes may run over */
+};
+
+typedef double lanes __attribute__((vector_size(LANES * sizeof(double)), aligned(sizeof(double)), may_alias));
+
+/* Arrays of one thread. */
+struct workspace {
+    double local[3][CHUNK_ROOM];    /* position in the cell, 0 ... 1 */
+    double gathered[3][CHUNK_ROOM]; /* velocity or acceleration from the grid */
+    double strain[6][CHUNK_ROOM], spin[3][CHUNK_ROOM], trace[CHUNK_ROOM];
+    double volume_before[CHUNK_ROOM], work[CHUNK_ROOM];
+    double copy[24][CHUNK_ROOM]; /* columns of a portion that is not in one piece */
+    double patch[9][PATCH_NODES];
+    uint8_t cell[CHUNK_ROOM];
+};
+
+struct chunk {
+    const struct cell_block *block;
+    int32_t block_index;
+    const int32_t *order; /* places of the particles in memory */
+    int32_t from;         /* index of the first one in the block */
+    int32_t count;
+    bool is_one_piece;
+    struct workspace *workspace;
+};
+
+/* The next portion of a block; false after the last. Start with .count = 0. */
+static inline bool chunk_next(const struct mpm *mpm, struct chunk *chunk)
+{
+    int32_t from = chunk->from + chunk->count;
+    int32_t left = chunk->block->count - from;
+    if (left <= 0)
+        return false;
+    chunk->from = from;
+    chunk->count = left < CHUNK_PARTICLES ? left : CHUNK_PARTICLES;
+    chunk->order = mpm->cells->order + chunk->block->first + from;
+    int differs = 0;
+    for (int32_t j = 0; j < chunk->count; j++)
+        differs |= chunk->order[j] - chunk->order[0] - j;
+    chunk->is_one_piece = differs == 0;
+    return true;
+}
+
+/* A column component of the portion: in place, or copied to `copy`. */
+static inline double *chunk_read(const struct chunk *chunk, double *column, double *copy)
+{
+    if (chunk->is_one_piece)
+        return column + chunk->order[0];
+    for (int32_t j = 0; j < chunk->count; j++)
+        copy[j] = column[chunk->order[j]];
+    return copy;
+}
+
+/* Puts a changed copy back. */
+static inline void chunk_write(const struct chunk *chunk, double *column, const double *copy)
+{
+    if (chunk->is_one_piece)
+        return;
+    for (int32_t j = 0; j < chunk->count; j++)
+        column[chunk->order[j]] = copy[j];
+}
+
+/* Low corner of a cell of the chunk's block, along axis a. */
+static inline double chunk_cell_low(const struct mpm *mpm, const struct chunk *chunk, int cell, int a)
+{
+    const struct cell_frame *frame = &mpm->cells->frame;
+    int in_block = (cell >> (2 * a)) & (BLOCK_EDGE - 1);
+    return frame->low[a] + (double)(chunk->block->at[a] * BLOCK_EDGE + in_block) * frame->size;
+}
+
+#endif

@@ -1,0 +1,180 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "mpm/grid.h"
+#include "base/memory.h"
+#include "base/threads.h"
+
+#include <string.h>
+
+struct grid *grid_open(const struct cell_list *cells, const long boundary[6], int boundary_layers, double mass_cutoff)
+{
+    struct grid *grid = memory_array(1, sizeof *grid, "the grid");
+    grid->cells = cells;
+    for (int a = 0; a < 3; a++)
+        grid->nodes[a] = cells->frame.cells[a] + 1;
+    memcpy(grid->boundary, boundary, sizeof grid->boundary);
+    grid->boundary_layers = boundary_layers;
+    grid->mass_cutoff = mass_cutoff;
+    grid->version = -1;
+    return grid;
+}
+
+void grid_close(struct grid *grid)
+{
+    if (!grid)
+        return;
+    memory_free(grid->node);
+    memory_free(grid->fixed);
+    memory_free(grid);
+}
+
+/* Fixed directions of a node by the codes of the faces that it lies on (spec 4.3). */
+static uint8_t fixed_directions(const struct grid *grid, const int32_t node[3])
+{
+    uint8_t fixed = 0;
+    for (int face = 0; face < 6; face++) {
+        int axis = face / 2;
+        int32_t from_face = face % 2 ? grid->nodes[axis] - 1 - node[axis] : node[axis];
+        if (from_face < 0 || from_face >= grid->boundary_layers)
+            continue;
+        if (grid->boundary[face] == 1)
+            fixed = 7;
+        else if (grid->boundary[face] == 2)
+            fixed |= (uint8_t)(1 << axis);
+    }
+    return fixed;
+}
+
+void grid_follow(struct grid *grid)
+{
+    const struct cell_list *cells = grid->cells;
+    if (grid->version == cells->version)
+        return;
+    grid->version = cells->version;
+    size_t blocks = (size_t)cells->n_blocks;
+    if (blocks * NODE_FIELDS * BLOCK_CELLS > grid->node_capacity) { /* nothing to keep between steps */
+        memory_free(grid->node);
+        grid->node = NULL;
+        grid->node_capacity = 0;
+        grid->node = memory_grow(NULL, &grid->node_capacity, (blocks + blocks / 4) * NODE_FIELDS * BLOCK_CELLS,
+                                 sizeof *grid->node, "grid nodes");
+    }
+    grid->fixed = memory_grow(grid->fixed, &grid->fixed_capacity, blocks * BLOCK_CELLS, 1, "grid nodes");
+#pragma omp parallel for schedule(static)
+    for (size_t b = 0; b < blocks; b++)
+        for (int32_t n = 0; n < BLOCK_CELLS; n++) {
+            const int32_t *at = cells->blocks[b].at;
+            int32_t node[3] = {at[0] * BLOCK_EDGE + n % BLOCK_EDGE, at[1] * BLOCK_EDGE + n / BLOCK_EDGE % BLOCK_EDGE,
+                               at[2] * BLOCK_EDGE + n / (BLOCK_EDGE * BLOCK_EDGE)};
+            grid->fixed[b * BLOCK_CELLS + (size_t)n] = fixed_directions(grid, node);
+        }
+}
+
+void grid_clear(struct grid *grid, int first, int count)
+{
+    const int32_t blocks = grid->cells->n_blocks;
+#pragma omp parallel for schedule(static)
+    for (int32_t b = 0; b < blocks; b++)
+        memset(grid_field(grid, b, first), 0, (size_t)count * BLOCK_CELLS * sizeof(double));
+}
+
+/* Index of the neighbour dx, dy, dz blocks further up. */
+static inline int upper_neighbour(int dx, int dy, int dz)
+{
+    return (dx + 1) + 3 * (dy + 1) + 9 * (dz + 1);
+}
+
+void grid_read_patch(const struct grid *grid, int32_t block, int first, int count, double patch[][PATCH_NODES])
+{
+    const int32_t *neighbour = grid->cells->blocks[block].neighbour;
+    for (int k = 0; k < PATCH_EDGE; k++)
+        for (int j = 0; j < PATCH_EDGE; j++) {
+            int dy = j == BLOCK_EDGE, dz = k == BLOCK_EDGE;
+            int row = BLOCK_EDGE * ((j - BLOCK_EDGE * dy) + BLOCK_EDGE * (k - BLOCK_EDGE * dz));
+            int target = PATCH_EDGE * (j + PATCH_EDGE * k);
+            int32_t near = neighbour[upper_neighbour(0, dy, dz)], far = neighbour[upper_neighbour(1, dy, dz)];
+            for (int f = 0; f < count; f++) {
+                const double *source = near >= 0 ? grid_field(grid, near, first + f) + row : NULL;
+                for (int i = 0; i < BLOCK_EDGE; i++)
+                    patch[f][target + i] = source ? source[i] : 0;
+                patch[f][target + BLOCK_EDGE] = far >= 0 ? grid_field(grid, far, first + f)[row] : 0;
+            }
+        }
+}
+
+void grid_add_patch(struct grid *grid, int32_t block, int first, int count, double patch[][PATCH_NODES])
+{
+    const int32_t *neighbour = grid->cells->blocks[block].neighbour;
+    for (int k = 0; k < PATCH_EDGE; k++)
+        for (int j = 0; j < PATCH_EDGE; j++) {
+            int dy = j == BLOCK_EDGE, dz = k == BLOCK_EDGE;
+            int row = BLOCK_EDGE * ((j - BLOCK_EDGE * dy) + BLOCK_EDGE * (k - BLOCK_EDGE * dz));
+            int source = PATCH_EDGE * (j + PATCH_EDGE * k);
+            int32_t near = neighbour[upper_neighbour(0, dy, dz)], far = neighbour[upper_neighbour(1, dy, dz)];
+            for (int f = 0; f < count; f++) {
+                if (near >= 0) {
+                    double *target = grid_field(grid, near, first + f) + row;
+                    for (int i = 0; i < BLOCK_EDGE; i++)
+                        target[i] += patch[f][source + i];
+                }
+                if (far >= 0)
+                    grid_field(grid, far, first + f)[row] += patch[f][source + BLOCK_EDGE];
+            }
+        }
+}
+
+THREADS_VECTORISED
+static void integrate_block(struct grid *grid, int32_t b, double step)
+{
+    const double *restrict mass = grid_field(grid, b, NODE_MASS);
+    const uint8_t *restrict fixed = grid->fixed + (size_t)b * BLOCK_CELLS;
+    const double cutoff = grid->mass_cutoff;
+    for (int a = 0; a < 3; a++) {
+        double *restrict momentum = grid_field(grid, b, NODE_MOMENTUM + a);
+        double *restrict force = grid_field(grid, b, NODE_FORCE + a);
+#pragma omp simd
+        for (int n = 0; n < BLOCK_CELLS; n++) {
+            bool moves = mass[n] > cutoff && !(fixed[n] >> a & 1);
+            double divisor = moves ? mass[n] : 1;
+            double p = momentum[n] + force[n] * step;
+            momentum[n] = moves ? p / divisor : 0;
+            force[n] = moves ? force[n] / divisor : 0;
+        }
+    }
+}
+
+void grid_integrate(struct grid *grid, double step)
+{
+    const int32_t blocks = grid->cells->n_blocks;
+#pragma omp parallel for schedule(static)
+    for (int32_t b = 0; b < blocks; b++)
+        integrate_block(grid, b, step);
+}
+
+THREADS_VECTORISED
+static void straining_block(struct grid *grid, int32_t b, int source)
+{
+    const double *restrict mass = grid_field(grid, b, NODE_MASS);
+    const uint8_t *restrict fixed = grid->fixed + (size_t)b * BLOCK_CELLS;
+    const double cutoff = grid->mass_cutoff;
+    for (int a = 0; a < 3; a++) {
+        const double *momentum = grid_field(grid, b, source + a);
+        double *velocity = grid_field(grid, b, NODE_STRAINING + a);
+        for (int n = 0; n < BLOCK_CELLS; n++) {
+            bool moves = mass[n] > cutoff && !(fixed[n] >> a & 1);
+            velocity[n] = moves ? momentum[n] / (moves ? mass[n] : 1) : 0;
+        }
+    }
+}
+
+void grid_straining_velocity(struct grid *grid, int source)
+{
+    const int32_t blocks = grid->cells->n_blocks;
+#pragma omp parallel for schedule(static)
+    for (int32_t b = 0; b < blocks; b++)
+        straining_block(grid, b, source);
+}
+
+size_t grid_bytes(const struct grid *grid)
+{
+    return grid->node_capacity * sizeof *grid->node + grid->fixed_capacity;
+}

@@ -1,0 +1,376 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Trilinear shape functions (spec 7.1): the passes between particles and grid.
+ * Scatter runs over the eight nodes of a cell at once, one particle after the other, so that the
+ * order of the sums is the order of the particles. Gather runs over particles of a cell at once,
+ * with the cell's field as a polynomial whose eight coefficients are formed once a cell. */
+#include "base/threads.h"
+#include "mpm/chunk.h"
+
+#include <string.h>
+
+enum { CORNERS = 8 };
+
+typedef double corners __attribute__((vector_size(CORNERS * sizeof(double))));
+
+static const int corner_offset[CORNERS] = {
+    0, 1, PATCH_EDGE, PATCH_EDGE + 1, PATCH_EDGE * PATCH_EDGE, PATCH_EDGE * PATCH_EDGE + 1,
+    PATCH_EDGE * PATCH_EDGE + PATCH_EDGE, PATCH_EDGE * PATCH_EDGE + PATCH_EDGE + 1};
+
+/* Sign of the corner along an axis, and 1 at the low corners: N = product of low + sign * f. */
+static const corners sign[3] = {{-1, 1, -1, 1, -1, 1, -1, 1}, {-1, -1, 1, 1, -1, -1, 1, 1}, {-1, -1, -1, -1, 1, 1, 1, 1}};
+static const corners low[3] = {{1, 0, 1, 0, 1, 0, 1, 0}, {1, 1, 0, 0, 1, 1, 0, 0}, {1, 1, 1, 1, 0, 0, 0, 0}};
+
+/* --- particles to grid (thesis steps 1 and 4) --- */
+
+/* Adds what a cell's corners got to the patch. */
+static inline void add_corners(double patch[][PATCH_NODES], int base, const corners *sum, int count)
+{
+    for (int f = 0; f < count; f++)
+        for (int i = 0; i < CORNERS; i++)
+            patch[f][base + corner_offset[i]] += sum[f][i];
+}
+
+/* Mass, momentum and force of one cell's particles. `sum` holds mass, momentum, force. */
+static inline __attribute__((always_inline)) void scatter_cell(const struct mpm *mpm, const int32_t *order, int32_t count,
+                                                               const double cell_low[3], corners sum[7], bool momentum,
+                                                               bool force, bool external)
+{
+    const struct store *store = mpm->store;
+    const double inverse = 1 / mpm->cells->frame.size;
+    for (int32_t k = 0; k < count; k++) {
+        size_t p = (size_t)order[k];
+        corners w[3];
+        for (int a = 0; a < 3; a++)
+            w[a] = low[a] + sign[a] * ((store->real[COLUMN_POSITION][a][p] - cell_low[a]) * inverse);
+        corners yz = w[1] * w[2];
+        corners n = w[0] * yz;
+        double mass = store->real[COLUMN_MASS][0][p];
+        if (momentum) {
+            sum[0] += n * mass;
+            for (int a = 0; a < 3; a++)
+                sum[1 + a] += n * (mass * store->real[COLUMN_VELOCITY][a][p]);
+        }
+        if (force) {
+            double volume = -store->real[COLUMN_VOLUME][0][p] * inverse;
+            double viscous = store->real[COLUMN_VISCOUS_PRESSURE][0][p];
+            double xx = volume * (store->real[COLUMN_STRESS][0][p] - viscous);
+            double yy = volume * (store->real[COLUMN_STRESS][1][p] - viscous);
+            double zz = volume * (store->real[COLUMN_STRESS][2][p] - viscous);
+            double yz_stress = volume * store->real[COLUMN_STRESS][3][p];
+            double xz_stress = volume * store->real[COLUMN_STRESS][4][p];
+            double xy_stress = volume * store->real[COLUMN_STRESS][5][p];
+            corners gx = sign[0] * yz, gy = sign[1] * (w[0] * w[2]), gz = sign[2] * (w[0] * w[1]);
+            sum[4] += gx * xx + gy * xy_stress + gz * xz_stress;
+            sum[5] += gx * xy_stress + gy * yy + gz * yz_stress;
+            sum[6] += gx * xz_stress + gy * yz_stress + gz * zz;
+            if (external) {
+                double f[3];
+                mpm_external_force(mpm, p, f);
+                for (int a = 0; a < 3; a++)
+                    sum[4 + a] += n * f[a];
+            }
+        }
+    }
+}
+
+static inline __attribute__((always_inline)) void scatter_block(struct mpm *mpm, int32_t b, bool momentum, bool force,
+                                                                bool external)
+{
+    const struct cell_block *block = &mpm->cells->blocks[b];
+    struct workspace *workspace = &mpm->workspaces[threads_self()];
+    const int first = momentum ? NODE_MASS : NODE_FORCE, fields = 4 * momentum + 3 * force;
+    struct chunk chunk = {.block = block};
+    memset(workspace->patch, 0, (size_t)fields * sizeof workspace->patch[0]);
+    for (int c = 0; c < BLOCK_CELLS; c++) {
+        int32_t from = block->cell_first[c], count = block->cell_first[c + 1] - from;
+        if (count == 0)
+            continue;
+        corners sum[7] = {{0}, {0}, {0}, {0}, {0}, {0}, {0}};
+        double cell_low[3];
+        for (int a = 0; a < 3; a++)
+            cell_low[a] = chunk_cell_low(mpm, &chunk, c, a);
+        scatter_cell(mpm, mpm->cells->order + block->first + from, count, cell_low, sum, momentum, force, external);
+        add_corners(workspace->patch, grid_patch_corner(c), momentum ? sum : sum + 4, fields);
+    }
+    grid_add_patch(mpm->grid, b, first, fields, workspace->patch);
+}
+
+THREADS_VECTORISED
+static void scatter_all(struct mpm *mpm, int32_t b)
+{
+    scatter_block(mpm, b, true, true, false);
+}
+
+THREADS_VECTORISED
+static void scatter_all_external(struct mpm *mpm, int32_t b)
+{
+    scatter_block(mpm, b, true, true, true);
+}
+
+THREADS_VECTORISED
+static void scatter_momentum(struct mpm *mpm, int32_t b)
+{
+    scatter_block(mpm, b, true, false, false);
+}
+
+THREADS_VECTORISED
+static void scatter_force(struct mpm *mpm, int32_t b)
+{
+    scatter_block(mpm, b, false, true, true);
+}
+
+static void scatter(struct mpm *mpm, int32_t b, bool momentum, bool force)
+{
+    if (!force)
+        scatter_momentum(mpm, b);
+    else if (!momentum)
+        scatter_force(mpm, b);
+    else if (mpm->has_external_force)
+        scatter_all_external(mpm, b);
+    else
+        scatter_all(mpm, b);
+}
+
+/* --- grid to particles --- */
+
+/* The trilinear field of a cell as a polynomial 1 x y z xy xz yz xyz of local coordinates. */
+struct polynomial {
+    double one, x, y, z, xy, xz, yz, xyz;
+};
+
+static inline struct polynomial polynomial_of(const double *field, int base)
+{
+    const double *v = field + base;
+    double v0 = v[corner_offset[0]], v1 = v[corner_offset[1]], v2 = v[corner_offset[2]], v3 = v[corner_offset[3]];
+    double v4 = v[corner_offset[4]], v5 = v[corner_offset[5]], v6 = v[corner_offset[6]], v7 = v[corner_offset[7]];
+    struct polynomial c = {.one = v0, .x = v1 - v0, .y = v2 - v0, .z = v4 - v0};
+    double upper_x = v5 - v4;
+    c.xy = (v3 - v2) - c.x;
+    c.xz = upper_x - c.x;
+    c.yz = (v6 - v4) - c.y;
+    c.xyz = ((v7 - v6) - upper_x) - c.xy;
+    return c;
+}
+
+/* The cells of a chunk that hold particles, one after the other: particles from ... to - 1. */
+struct cell_walk {
+    int cell;
+    int32_t from, to;
+};
+
+static inline bool walk_next(const struct chunk *chunk, struct cell_walk *walk)
+{
+    const int32_t *first = chunk->block->cell_first;
+    int32_t end = chunk->from + chunk->count;
+    walk->from = walk->to;
+    if (walk->to == chunk->count)
+        return false;
+    while (first[walk->cell + 1] <= chunk->from + walk->from)
+        walk->cell++;
+    walk->to = (first[walk->cell + 1] < end ? first[walk->cell + 1] : end) - chunk->from;
+    return true;
+}
+
+/* Positions of the chunk's particles in their cells, 0 ... 1, into workspace.local. */
+static inline void find_local(const struct mpm *mpm, const struct chunk *chunk, double *const position[3])
+{
+    const double inverse = 1 / mpm->cells->frame.size;
+    for (struct cell_walk walk = {0}; walk_next(chunk, &walk);)
+        for (int a = 0; a < 3; a++) {
+            double cell_low = chunk_cell_low(mpm, chunk, walk.cell, a);
+            double *local = chunk->workspace->local[a];
+            for (int32_t j = walk.from; j < walk.to; j++)
+                local[j] = (position[a][j] - cell_low) * inverse;
+        }
+}
+
+/* Evaluates three fields of the patch at the chunk's particles, into workspace.gathered. */
+static inline void gather_values(const struct chunk *chunk, double patch[][PATCH_NODES])
+{
+    struct workspace *w = chunk->workspace;
+    for (struct cell_walk walk = {0}; walk_next(chunk, &walk);)
+        for (int a = 0; a < 3; a++) {
+            struct polynomial c = polynomial_of(patch[a], grid_patch_corner(walk.cell));
+            for (int32_t j = walk.from; j < walk.to; j += LANES) {
+                lanes x = *(lanes *)&w->local[0][j], y = *(lanes *)&w->local[1][j], z = *(lanes *)&w->local[2][j];
+                *(lanes *)&w->gathered[a][j] = (c.one + c.x * x) + y * (c.y + c.xy * x)
+                                             + z * ((c.z + c.xz * x) + y * (c.yz + c.xyz * x));
+            }
+        }
+}
+
+/* Strain and spin increments and their trace (spec 6.2) from the straining velocities of the patch. */
+static inline void gather_gradient(const struct chunk *chunk, double patch[][PATCH_NODES], double scale)
+{
+    struct workspace *w = chunk->workspace;
+    for (struct cell_walk walk = {0}; walk_next(chunk, &walk);) {
+        int base = grid_patch_corner(walk.cell);
+        struct polynomial u = polynomial_of(patch[0], base), v = polynomial_of(patch[1], base),
+                          t = polynomial_of(patch[2], base);
+        for (int32_t j = walk.from; j < walk.to; j += LANES) {
+            lanes x = *(lanes *)&w->local[0][j], y = *(lanes *)&w->local[1][j], z = *(lanes *)&w->local[2][j];
+            lanes ux = ((u.x + u.xy * y) + z * (u.xz + u.xyz * y)) * scale;
+            lanes uy = ((u.y + u.xy * x) + z * (u.yz + u.xyz * x)) * scale;
+            lanes uz = ((u.z + u.xz * x) + y * (u.yz + u.xyz * x)) * scale;
+            lanes vx = ((v.x + v.xy * y) + z * (v.xz + v.xyz * y)) * scale;
+            lanes vy = ((v.y + v.xy * x) + z * (v.yz + v.xyz * x)) * scale;
+            lanes vz = ((v.z + v.xz * x) + y * (v.yz + v.xyz * x)) * scale;
+            lanes tx = ((t.x + t.xy * y) + z * (t.xz + t.xyz * y)) * scale;
+            lanes ty = ((t.y + t.xy * x) + z * (t.yz + t.xyz * x)) * scale;
+            lanes tz = ((t.z + t.xz * x) + y * (t.yz + t.xyz * x)) * scale;
+            *(lanes *)&w->strain[0][j] = ux;
+            *(lanes *)&w->strain[1][j] = vy;
+            *(lanes *)&w->strain[2][j] = tz;
+            *(lanes *)&w->strain[3][j] = ty + vz;
+            *(lanes *)&w->strain[4][j] = uz + tx;
+            *(lanes *)&w->strain[5][j] = vx + uy;
+            *(lanes *)&w->spin[0][j] = 0.5 * (ty - vz);
+            *(lanes *)&w->spin[1][j] = 0.5 * (uz - tx);
+            *(lanes *)&w->spin[2][j] = 0.5 * (vx - uy);
+            *(lanes *)&w->trace[j] = ux + vy + tz;
+        }
+    }
+}
+
+/* --- particle velocity (thesis steps 6 and 7) --- */
+
+/* Adds momentum of the new velocities of the chunk to the straining field. */
+static inline __attribute__((always_inline)) void scatter_new_momentum(const struct chunk *chunk, double *const velocity[3],
+                                                                       const double *mass, double patch[][PATCH_NODES])
+{
+    const struct workspace *w = chunk->workspace;
+    for (struct cell_walk walk = {0}; walk_next(chunk, &walk);) {
+        corners sum[3] = {{0}, {0}, {0}};
+        for (int32_t j = walk.from; j < walk.to; j++) {
+            corners n = (low[0] + sign[0] * w->local[0][j])
+                      * ((low[1] + sign[1] * w->local[1][j]) * (low[2] + sign[2] * w->local[2][j]));
+            for (int a = 0; a < 3; a++)
+                sum[a] += n * (mass[j] * velocity[a][j]);
+        }
+        add_corners(patch, grid_patch_corner(walk.cell), sum, 3);
+    }
+}
+
+/* The three patches that a block's velocity pass works with. */
+enum { PATCH_VELOCITY = 0, PATCH_ACCELERATION = 3, PATCH_STRAINING = 6 };
+
+static inline __attribute__((always_inline)) void velocity_chunk(struct mpm *mpm, struct chunk *chunk, bool moves,
+                                                                 bool remaps, bool external)
+{
+    struct store *store = mpm->store;
+    struct workspace *w = chunk->workspace;
+    double *position[3], *velocity[3];
+    for (int a = 0; a < 3; a++) {
+        position[a] = chunk_read(chunk, store->real[COLUMN_POSITION][a], w->copy[a]);
+        velocity[a] = chunk_read(chunk, store->real[COLUMN_VELOCITY][a], w->copy[3 + a]);
+    }
+    const double *mass = chunk_read(chunk, store->real[COLUMN_MASS][0], w->copy[6]);
+    find_local(mpm, chunk, position);
+    if (external) {
+        gather_values(chunk, w->patch + PATCH_VELOCITY);
+        motion_work(mpm, chunk);
+    }
+    gather_values(chunk, w->patch + PATCH_ACCELERATION);
+    motion_accelerate(mpm, chunk, velocity, mass);
+    if (remaps)
+        scatter_new_momentum(chunk, velocity, mass, w->patch + PATCH_STRAINING);
+    if (moves) {
+        gather_values(chunk, w->patch + PATCH_VELOCITY);
+        motion_move(mpm, chunk, position);
+    }
+}
+
+static inline __attribute__((always_inline)) void velocity_block(struct mpm *mpm, int32_t b, bool moves, bool remaps,
+                                                                 bool external)
+{
+    struct workspace *w = &mpm->workspaces[threads_self()];
+    struct chunk chunk = {.block = &mpm->cells->blocks[b], .block_index = b, .workspace = w};
+    grid_read_patch(mpm->grid, b, NODE_MOMENTUM, 6, w->patch);
+    if (remaps)
+        memset(w->patch[PATCH_STRAINING], 0, 3 * sizeof w->patch[0]);
+    while (chunk_next(mpm, &chunk))
+        velocity_chunk(mpm, &chunk, moves, remaps, external);
+    if (remaps)
+        grid_add_patch(mpm->grid, b, NODE_STRAINING, 3, w->patch + PATCH_STRAINING);
+}
+
+THREADS_VECTORISED
+static void velocity_usf(struct mpm *mpm, int32_t b)
+{
+    velocity_block(mpm, b, true, false, true);
+}
+
+THREADS_VECTORISED
+static void velocity_usl(struct mpm *mpm, int32_t b)
+{
+    velocity_block(mpm, b, false, false, true);
+}
+
+THREADS_VECTORISED
+static void velocity_musl(struct mpm *mpm, int32_t b)
+{
+    velocity_block(mpm, b, false, true, false);
+}
+
+THREADS_VECTORISED
+static void velocity_musl_external(struct mpm *mpm, int32_t b)
+{
+    velocity_block(mpm, b, false, true, true);
+}
+
+static void gather_velocity(struct mpm *mpm, int32_t b)
+{
+    if (mpm->scene->scheme == SCHEME_USF)
+        velocity_usf(mpm, b);
+    else if (mpm->scene->scheme == SCHEME_USL)
+        velocity_usl(mpm, b);
+    else if (mpm->has_external_force)
+        velocity_musl_external(mpm, b);
+    else
+        velocity_musl(mpm, b);
+}
+
+/* --- strain and stress (thesis steps 3, 8 and 9) --- */
+
+static inline __attribute__((always_inline)) void strain_block(struct mpm *mpm, int32_t b, bool moves)
+{
+    struct workspace *w = &mpm->workspaces[threads_self()];
+    struct chunk chunk = {.block = &mpm->cells->blocks[b], .block_index = b, .workspace = w};
+    grid_read_patch(mpm->grid, b, mpm->straining_field, 3, w->patch + PATCH_STRAINING);
+    if (moves)
+        grid_read_patch(mpm->grid, b, NODE_MOMENTUM, 3, w->patch + PATCH_VELOCITY);
+    while (chunk_next(mpm, &chunk)) {
+        double *position[3];
+        for (int a = 0; a < 3; a++)
+            position[a] = chunk_read(&chunk, mpm->store->real[COLUMN_POSITION][a], w->copy[a]);
+        find_local(mpm, &chunk, position);
+        gather_gradient(&chunk, w->patch + PATCH_STRAINING, mpm->time_step / mpm->cells->frame.size);
+        stress_update(mpm, &chunk);
+        if (moves) {
+            gather_values(&chunk, w->patch + PATCH_VELOCITY);
+            motion_move(mpm, &chunk, position);
+        }
+    }
+}
+
+THREADS_VECTORISED
+static void strain_only(struct mpm *mpm, int32_t b)
+{
+    strain_block(mpm, b, false);
+}
+
+THREADS_VECTORISED
+static void strain_and_move(struct mpm *mpm, int32_t b)
+{
+    strain_block(mpm, b, true);
+}
+
+static void gather_strain(struct mpm *mpm, int32_t b)
+{
+    if (mpm->scene->scheme == SCHEME_USF)
+        strain_only(mpm, b);
+    else
+        strain_and_move(mpm, b);
+}
+
+const struct shape shape_linear = {"linear", 0, scatter, gather_velocity, gather_strain};

@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The material point method: what a run of it owns, and its steps (thesis 3.1.4, spec 6). */
+#ifndef MPM_MPM_H
+#define MPM_MPM_H
+
+#include "base/timers.h"
+#include "deck/scene.h"
+#include "mpm/grid.h"
+
+struct diagnostics;
+struct workspace;
+struct face_load;
+
+/* Sums over particles, per block and in all. */
+struct sums {
+    double kinetic, internal;
+    double momentum[3];
+    double work;          /* of external forces in this step */
+    double fastest;       /* largest velocity component */
+    double least_volume;
+    double moved;         /* particles that changed cell */
+};
+
+/* What external forces act on particles of a body or material. */
+struct body_data {
+    const struct material *material;
+    double gravity[3];
+};
+
+/* A shape function: its passes over the particles of one block. One const row each. */
+struct mpm;
+struct shape {
+    const char *name;
+    int reach; /* cells beyond its own that a particle's support spans on the low side */
+    void (*scatter)(struct mpm *mpm, int32_t block, bool momentum, bool force);
+    void (*gather_velocity)(struct mpm *mpm, int32_t block);
+    void (*gather_strain)(struct mpm *mpm, int32_t block);
+};
+
+extern const struct shape shape_linear;
+
+struct mpm {
+    const struct scene *scene;
+    struct store *store;
+    struct cell_list *cells;
+    struct grid *grid;
+    const struct shape *shape;
+    struct body_data *bodies;
+    int32_t *component_of_body;
+    const struct material **material_of_body;
+    int *material_number_of_body;
+    void (*rotate)(const struct law_batch *batch); /* NULL: no rotation */
+    int straining_field;     /* node field of the velocities that strain particles: of the scheme */
+    bool has_external_force; /* loads, gravity or damping */
+    bool has_one_law;        /* all bodies share one material */
+    struct face_load *faces;
+    size_t n_faces;
+    struct workspace *workspaces; /* one a thread */
+    int n_workspaces;
+    struct sums *block_sums;
+    size_t block_sums_capacity;
+    struct timers *timers;
+
+    long step;
+    double time;
+    double time_step;       /* of the step under way, or of the next one */
+    double first_time_step;
+    double momentum_factor; /* 1/2 in the first step */
+    struct sums sums;       /* after the last step */
+    double start_energy;
+    double external_work;   /* of all forces since the start */
+    double removed_energy;  /* by kinetic damping */
+    double previous_kinetic;
+    double start_momentum[3];
+};
+
+/* Builds the run of a scene: particles, cells, grid. Mistakes that only show now (curx) go to
+ * `diagnostics`. */
+struct mpm *mpm_open(struct scene *scene, struct timers *timers, struct diagnostics *diagnostics);
+void mpm_close(struct mpm *mpm);
+
+/* One step. */
+void mpm_step(struct mpm *mpm);
+
+/* Why the last step can't be trusted. */
+struct instability {
+    bool is_stopped;
+    long particle; /* id from 0, or -1 */
+    char cause[200];
+    char advice[200];
+};
+
+/* Looks at the sums of the last step (and at particles only when something is wrong). */
+struct instability mpm_check(const struct mpm *mpm);
+
+/* Sums over all particles, without a step: for the start. */
+struct sums mpm_total(const struct mpm *mpm);
+
+/* Energy that is not accounted for, relative to the largest energy that took part. */
+double mpm_energy_error(const struct mpm *mpm);
+
+/* --- used by the passes --- */
+
+/* Runs `pass` on all active blocks; colour by colour when it writes to nodes. */
+typedef void block_pass(struct mpm *mpm, int32_t block);
+void mpm_each_block(struct mpm *mpm, block_pass *pass);
+void mpm_each_block_coloured(struct mpm *mpm, block_pass *pass);
+
+/* Force per particle besides stress (spec 6 C): load, gravity, damping. */
+static inline void mpm_external_force(const struct mpm *mpm, size_t p, double force[3])
+{
+    const struct store *store = mpm->store;
+    const double *gravity = mpm->bodies[store->integer[COLUMN_BODY][p]].gravity;
+    double mass = store->real[COLUMN_MASS][0][p];
+    for (int a = 0; a < 3; a++) {
+        double load = store->real[COLUMN_LOAD][0] ? store->real[COLUMN_LOAD][a][p] : 0;
+        force[a] = load + mass * (gravity[a] - mpm->scene->damping * store->real[COLUMN_VELOCITY][a][p]);
+    }
+}
+
+/* Face tractions (load face). */
+void faces_open(struct mpm *mpm);
+void faces_close(struct mpm *mpm);
+void faces_scatter(struct mpm *mpm);
+double faces_work(const struct mpm *mpm); /* after the grid is integrated */
+
+/* What all shape functions do with a portion of particles once the grid's values are in the
+ * thread's workspace. */
+struct chunk;
+
+/* Stress, volume, energy from strain, spin and trace (spec 6.2 to 6.7). */
+void stress_update(struct mpm *mpm, const struct chunk *chunk);
+
+/* Work of the external forces over the step's way, from the gathered velocities. */
+void motion_work(struct mpm *mpm, const struct chunk *chunk);
+
+/* New particle velocities from the gathered accelerations, and their sums. */
+void motion_accelerate(struct mpm *mpm, const struct chunk *chunk, double *const velocity[3], const double *mass);
+
+/* New positions and cells from the gathered velocities. */
+void motion_move(struct mpm *mpm, const struct chunk *chunk, double *const position[3]);
+
+#endif

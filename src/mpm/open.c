@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Builds and frees what a run owns. */
+#include "base/memory.h"
+#include "base/threads.h"
+#include "deck/diagnostics.h"
+#include "mpm/chunk.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* --- particles --- */
+
+static uint64_t wanted_columns(const struct scene *scene)
+{
+    uint64_t wanted = 0;
+    static const enum column always[] = {COLUMN_POSITION, COLUMN_VELOCITY, COLUMN_STRESS, COLUMN_VOLUME, COLUMN_MASS,
+                                         COLUMN_ENERGY, COLUMN_VISCOUS_PRESSURE, COLUMN_ID, COLUMN_BODY};
+    for (size_t i = 0; i < sizeof always / sizeof always[0]; i++)
+        wanted |= column_bit(always[i]);
+    for (size_t i = 0; i < scene->n_materials; i++)
+        for (const enum column *c = scene->materials[i].material.law->columns; *c != COLUMN_NONE; c++)
+            wanted |= column_bit(*c);
+    for (size_t i = 0; i < scene->n_results; i++)
+        for (const enum column *c = scene->results[i]->columns; *c != COLUMN_NONE; c++)
+            wanted |= column_bit(*c);
+    for (size_t i = 0; i < scene->n_curves; i++)
+        for (const enum column *c = scene->curves[i].result->columns; *c != COLUMN_NONE; c++)
+            wanted |= column_bit(*c);
+    for (size_t i = 0; i < scene->n_loads; i++)
+        if (scene->loads[i].kind != LOAD_GRAVITY && scene->loads[i].kind != LOAD_FACE)
+            wanted |= column_bit(COLUMN_LOAD);
+    return wanted;
+}
+
+/* Where a generator's points go. */
+struct filling {
+    struct store *store;
+    size_t next;
+    int32_t body;
+    const struct material *material;
+};
+
+static void fill_particle(void *context, const double position[3], double mass)
+{
+    struct filling *filling = context;
+    struct store *store = filling->store;
+    size_t p = filling->next++;
+    for (int a = 0; a < 3; a++) {
+        store->real[COLUMN_POSITION][a][p] = position[a];
+        if (store_has(store, COLUMN_INITIAL_POSITION))
+            store->real[COLUMN_INITIAL_POSITION][a][p] = position[a];
+    }
+    store->real[COLUMN_MASS][0][p] = mass;
+    store->real[COLUMN_VOLUME][0][p] = mass / filling->material->density;
+    if (store_has(store, COLUMN_YIELD_STRESS))
+        store->real[COLUMN_YIELD_STRESS][0][p] = filling->material->yield_stress;
+    store->integer[COLUMN_ID][p] = store->index_of_id[p] = (int32_t)p;
+    store->integer[COLUMN_BODY][p] = filling->body;
+}
+
+static void create_particles(struct mpm *mpm)
+{
+    const struct scene *scene = mpm->scene;
+    mpm->store = store_open((size_t)scene->n_particles, wanted_columns(scene));
+    struct filling filling = {.store = mpm->store};
+    for (size_t b = 0; b < scene->n_bodies; b++) {
+        filling.body = (int32_t)b;
+        filling.material = mpm->material_of_body[b];
+        scene->bodies[b].generator.row->visit(&scene->bodies[b].generator, fill_particle, &filling);
+    }
+}
+
+static void set_velocity(struct store *store, long id, const double velocity[3])
+{
+    for (int a = 0; a < 3; a++)
+        store->real[COLUMN_VELOCITY][a][id] = velocity[a];
+}
+
+static void apply_velocities(struct mpm *mpm)
+{
+    const struct scene *scene = mpm->scene;
+    for (size_t i = 0; i < scene->n_velocities; i++) {
+        const struct scene_velocity *velocity = &scene->velocities[i];
+        const struct scene_body *body = velocity->kind == VELOCITY_BODY ? &scene->bodies[velocity->target] : NULL;
+        long first = body ? body->first : velocity->target, count = body ? body->count : 1;
+        for (long id = first; id < first + count; id++)
+            set_velocity(mpm->store, id, velocity->value);
+    }
+}
+
+static void apply_loads(struct mpm *mpm)
+{
+    const struct scene *scene = mpm->scene;
+    mpm->has_external_force = scene->damping > 0;
+    for (size_t i = 0; i < scene->n_loads; i++) {
+        const struct scene_load *load = &scene->loads[i];
+        if (load->kind == LOAD_FACE)
+            continue;
+        mpm->has_external_force = true;
+        if (load->kind == LOAD_GRAVITY) {
+            memcpy(mpm->bodies[load->target].gravity, load->value, sizeof load->value);
+            continue;
+        }
+        const struct scene_body *body = load->kind == LOAD_BODY ? &scene->bodies[load->target] : NULL;
+        long first = body ? body->first : load->target, count = body ? body->count : 1;
+        for (long id = first; id < first + count; id++) {
+            double scale = load->kind == LOAD_DENSITY ? mpm->store->real[COLUMN_VOLUME][0][id] : 1;
+            for (int a = 0; a < 3; a++)
+                mpm->store->real[COLUMN_LOAD][a][id] = scale * load->value[a];
+        }
+    }
+}
+
+/* --- bodies, cells, grid --- */
+
+static void create_bodies(struct mpm *mpm)
+{
+    const struct scene *scene = mpm->scene;
+    mpm->bodies = memory_array(scene->n_bodies, sizeof *mpm->bodies, "bodies");
+    mpm->component_of_body = memory_array(scene->n_bodies, sizeof *mpm->component_of_body, "bodies");
+    mpm->material_of_body = memory_array(scene->n_bodies, sizeof *mpm->material_of_body, "bodies");
+    mpm->material_number_of_body = memory_array(scene->n_bodies, sizeof *mpm->material_number_of_body, "bodies");
+    mpm->has_one_law = true;
+    for (size_t b = 0; b < scene->n_bodies; b++) {
+        int material = scene->bodies[b].generator.material;
+        mpm->material_of_body[b] = mpm->bodies[b].material = &scene->materials[material].material;
+        mpm->material_number_of_body[b] = material + 1;
+        mpm->has_one_law = mpm->has_one_law && mpm->material_of_body[b] == mpm->material_of_body[0];
+    }
+}
+
+static struct cell_frame frame_of(const struct scene *scene)
+{
+    struct cell_frame frame = {.size = scene->cell_size};
+    for (int a = 0; a < 3; a++) {
+        double span = scene->grid[2 * a + 1] - scene->grid[2 * a];
+        frame.low[a] = scene->grid[2 * a];
+        frame.cells[a] = (int32_t)(span / scene->cell_size + 0.5);
+        frame.high[a] = frame.low[a] + (double)frame.cells[a] * scene->cell_size;
+    }
+    return frame;
+}
+
+static void create_cells(struct mpm *mpm)
+{
+    const struct scene *scene = mpm->scene;
+    mpm->cells = cell_list_open(frame_of(scene), mpm->component_of_body, mpm->store->count, mpm->shape->reach);
+    cell_list_build(mpm->cells, mpm->store);
+    if (scene->sorts)
+        cell_list_sort(mpm->cells, mpm->store);
+    mpm->grid = grid_open(mpm->cells, scene->boundary, 1, scene->mass_cutoff);
+    grid_follow(mpm->grid);
+}
+
+/* The particles of the curx curves: for each body the first one within a quarter cell, later
+ * bodies win (spec 3.6). */
+static void find_near_particles(struct mpm *mpm, struct scene *scene, struct diagnostics *diagnostics)
+{
+    const struct store *store = mpm->store;
+    for (size_t i = 0; i < scene->n_curves; i++) {
+        struct scene_curve *curve = &scene->curves[i];
+        if (!curve->is_near)
+            continue;
+        curve->particle = -1;
+        for (size_t b = scene->n_bodies; b-- > 0 && curve->particle < 0;)
+            for (long id = scene->bodies[b].first; id < scene->bodies[b].first + scene->bodies[b].count; id++) {
+                double farthest = 0;
+                for (int a = 0; a < 3; a++)
+                    farthest = fmax(farthest, fabs(store->real[COLUMN_POSITION][a][id] - curve->point[a]));
+                if (farthest <= scene->cell_size / 4) {
+                    curve->particle = id;
+                    break;
+                }
+            }
+        if (curve->particle < 0)
+            diagnostics_error(diagnostics, curve->place, "no particle within a quarter cell of (%g, %g, %g)",
+                              curve->point[0], curve->point[1], curve->point[2]);
+    }
+}
+
+static void start_sums(struct mpm *mpm)
+{
+    mpm->sums = mpm_total(mpm);
+    mpm->start_energy = mpm->sums.kinetic + mpm->sums.internal;
+    mpm->previous_kinetic = mpm->sums.kinetic;
+    for (int a = 0; a < 3; a++)
+        mpm->start_momentum[a] = mpm->sums.momentum[a];
+    double smallest = DBL_MAX; /* the first step leaves the particles' speed out (spec 5) */
+    for (size_t i = 0; i < mpm->scene->n_materials; i++)
+        smallest = fmin(smallest, mpm->scene->cell_size / mpm->scene->materials[i].material.wave_speed);
+    mpm->time_step = mpm->first_time_step = mpm->scene->step_scale * smallest;
+}
+
+struct mpm *mpm_open(struct scene *scene, struct timers *timers, struct diagnostics *diagnostics)
+{
+    static void (*const rotations[])(const struct law_batch *) = {
+        [ROTATION_OFF] = NULL, [ROTATION_EXPLICIT] = law_rotate_explicit, [ROTATION_EXACT] = law_rotate_exact};
+    struct mpm *mpm = memory_array(1, sizeof *mpm, "the run");
+    mpm->scene = scene;
+    mpm->timers = timers;
+    mpm->shape = &shape_linear;
+    mpm->straining_field = scene->scheme == SCHEME_USL ? NODE_MOMENTUM : NODE_STRAINING;
+    mpm->rotate = rotations[scene->rotation];
+    create_bodies(mpm);
+    create_particles(mpm);
+    apply_velocities(mpm);
+    apply_loads(mpm);
+    find_near_particles(mpm, scene, diagnostics);
+    create_cells(mpm);
+    faces_open(mpm);
+    mpm->n_workspaces = threads_available();
+    mpm->workspaces = memory_array((size_t)mpm->n_workspaces, sizeof *mpm->workspaces, "threads");
+    start_sums(mpm);
+    return mpm;
+}
+
+void mpm_close(struct mpm *mpm)
+{
+    if (!mpm)
+        return;
+    faces_close(mpm);
+    grid_close(mpm->grid);
+    cell_list_close(mpm->cells);
+    store_close(mpm->store);
+    memory_free(mpm->bodies);
+    memory_free(mpm->component_of_body);
+    memory_free(mpm->material_of_body);
+    memory_free(mpm->material_number_of_body);
+    memory_free(mpm->workspaces);
+    memory_free(mpm->block_sums);
+    memory_free(mpm);
+}

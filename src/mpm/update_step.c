@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One step, as the list of thesis 3.1.4 and spec 6. */
+#include "base/memory.h"
+#include "mpm/mpm.h"
+
+#include <float.h>
+#include <math.h>
+
+/* Fewer blocks than this a thread are not worth sharing. */
+enum { BLOCKS_PER_THREAD = 4 };
+
+void mpm_each_block(struct mpm *mpm, block_pass *pass)
+{
+    const int32_t active = mpm->cells->active;
+#pragma omp parallel for schedule(dynamic, 1) if (active >= 2 * BLOCKS_PER_THREAD)
+    for (int32_t b = 0; b < active; b++)
+        pass(mpm, b);
+}
+
+void mpm_each_block_coloured(struct mpm *mpm, block_pass *pass)
+{
+    const struct cell_list *cells = mpm->cells;
+#pragma omp parallel if (cells->active >= 2 * BLOCK_COLOURS * BLOCKS_PER_THREAD)
+    for (int colour = 0; colour < BLOCK_COLOURS; colour++) {
+#pragma omp for schedule(dynamic, 1)
+        for (int32_t i = cells->colour_first[colour]; i < cells->colour_first[colour + 1]; i++)
+            pass(mpm, cells->coloured[i]);
+    }
+}
+
+static void scatter_momentum(struct mpm *mpm, int32_t b)
+{
+    mpm->shape->scatter(mpm, b, true, false);
+}
+
+static void scatter_force(struct mpm *mpm, int32_t b)
+{
+    mpm->shape->scatter(mpm, b, false, true);
+}
+
+static void scatter_all(struct mpm *mpm, int32_t b)
+{
+    mpm->shape->scatter(mpm, b, true, true);
+}
+
+/* Steps 1 to 4: mass and momentum to the nodes, boundary conditions, for USF the stress with the
+ * nodal velocities before the update, and the nodal forces. Where the stress is not updated in
+ * between, momentum and force go to the grid in one pass. */
+static void map_to_grid(struct mpm *mpm)
+{
+    timers_enter(mpm->timers, PHASE_GRID);
+    grid_clear(mpm->grid, NODE_MASS, NODE_FIELDS);
+    timers_enter(mpm->timers, PHASE_SCATTER);
+    if (mpm->scene->scheme != SCHEME_USF) {
+        mpm_each_block_coloured(mpm, scatter_all);
+    } else {
+        mpm_each_block_coloured(mpm, scatter_momentum);
+        timers_enter(mpm->timers, PHASE_GRID);
+        grid_straining_velocity(mpm->grid, NODE_MOMENTUM);
+        timers_enter(mpm->timers, PHASE_STRESS);
+        mpm_each_block(mpm, mpm->shape->gather_strain);
+        timers_enter(mpm->timers, PHASE_SCATTER);
+        mpm_each_block_coloured(mpm, scatter_force);
+    }
+    faces_scatter(mpm);
+}
+
+/* Step 5: momentum equation on the nodes. */
+static void integrate_momentum(struct mpm *mpm)
+{
+    timers_enter(mpm->timers, PHASE_GRID);
+    grid_integrate(mpm->grid, mpm->time_step * mpm->momentum_factor);
+    mpm->external_work += faces_work(mpm);
+}
+
+/* Steps 6 and 7: particle velocities; for USF positions too; for MUSL the new momentum goes to
+ * the nodes again. */
+static void update_velocities(struct mpm *mpm)
+{
+    timers_enter(mpm->timers, PHASE_VELOCITY);
+    if (mpm->scene->scheme == SCHEME_MUSL)
+        mpm_each_block_coloured(mpm, mpm->shape->gather_velocity);
+    else
+        mpm_each_block(mpm, mpm->shape->gather_velocity);
+}
+
+/* Step 8: for USL and MUSL stress and position, with the straining velocities of the scheme. */
+static void update_stress_last(struct mpm *mpm)
+{
+    if (mpm->scene->scheme == SCHEME_USF)
+        return;
+    timers_enter(mpm->timers, PHASE_GRID);
+    if (mpm->scene->scheme == SCHEME_MUSL)
+        grid_straining_velocity(mpm->grid, NODE_STRAINING);
+    timers_enter(mpm->timers, PHASE_STRESS);
+    mpm_each_block(mpm, mpm->shape->gather_strain);
+}
+
+/* Step 9: the deformed grid is given up; particles find their new cells. */
+static void discard_grid(struct mpm *mpm)
+{
+    struct cell_list *cells = mpm->cells;
+    timers_enter(mpm->timers, PHASE_CELLS);
+    cell_list_update(cells, mpm->store);
+    if (mpm->scene->sorts && cells->moved > 0.1 * cells->count) {
+        timers_enter(mpm->timers, PHASE_SORT);
+        cell_list_sort(cells, mpm->store);
+    }
+    grid_follow(mpm->grid);
+}
+
+static void clear_block_sums(struct mpm *mpm)
+{
+    size_t active = (size_t)mpm->cells->active;
+    mpm->block_sums = memory_grow(mpm->block_sums, &mpm->block_sums_capacity, active, sizeof *mpm->block_sums, "sums");
+    for (size_t b = 0; b < active; b++)
+        mpm->block_sums[b] = (struct sums){.least_volume = DBL_MAX};
+}
+
+static void add_sums(struct sums *total, const struct sums *part)
+{
+    total->kinetic += part->kinetic;
+    total->internal += part->internal;
+    for (int a = 0; a < 3; a++)
+        total->momentum[a] += part->momentum[a];
+    total->work += part->work;
+    total->moved += part->moved;
+    total->fastest = part->fastest > total->fastest ? part->fastest : total->fastest;
+    total->least_volume = part->least_volume < total->least_volume ? part->least_volume : total->least_volume;
+}
+
+/* Adds the particles order[from] ... order[to - 1]. */
+static void add_particles(const struct mpm *mpm, int32_t from, int32_t to, struct sums *total)
+{
+    const struct store *store = mpm->store;
+    for (int32_t k = from; k < to; k++) {
+        int32_t p = mpm->cells->order[k];
+        double mass = store->real[COLUMN_MASS][0][p], square = 0;
+        for (int a = 0; a < 3; a++) {
+            double v = store->real[COLUMN_VELOCITY][a][p];
+            square += v * v;
+            total->momentum[a] += mass * v;
+            total->fastest = fabs(v) > total->fastest ? fabs(v) : total->fastest;
+        }
+        total->kinetic += 0.5 * mass * square;
+        total->internal += store->real[COLUMN_ENERGY][0][p];
+    }
+}
+
+struct sums mpm_total(const struct mpm *mpm)
+{
+    struct sums total = {.least_volume = DBL_MAX};
+    add_particles(mpm, 0, mpm->cells->count, &total);
+    return total;
+}
+
+/* Sums over blocks in their order, then over the particles that have no cell any more. */
+static void sum_particles(struct mpm *mpm, int32_t blocks)
+{
+    struct sums total = {.least_volume = DBL_MAX};
+    for (int32_t b = 0; b < blocks; b++)
+        add_sums(&total, &mpm->block_sums[b]);
+    mpm->sums = total;
+    mpm->external_work += total.work;
+    mpm->cells->moved += total.moved;
+}
+
+/* Step size of the next step (spec 5). */
+static double next_time_step(const struct mpm *mpm)
+{
+    double smallest = DBL_MAX;
+    for (size_t i = 0; i < mpm->scene->n_materials; i++) {
+        double step = mpm->scene->cell_size / (mpm->scene->materials[i].material.wave_speed + mpm->sums.fastest);
+        smallest = step < smallest ? step : smallest;
+    }
+    return mpm->scene->step_scale * smallest;
+}
+
+/* Kinetic damping (spec 9.5): all velocities to zero when the kinetic energy did not grow. */
+static void damp_kinetic(struct mpm *mpm)
+{
+    if (mpm->sums.kinetic <= mpm->previous_kinetic) {
+        for (int a = 0; a < 3; a++)
+            for (size_t p = 0; p < mpm->store->count; p++)
+                mpm->store->real[COLUMN_VELOCITY][a][p] = 0;
+        mpm->removed_energy += mpm->sums.kinetic;
+        mpm->sums.kinetic = 0;
+    }
+    mpm->previous_kinetic = mpm->sums.kinetic;
+}
+
+void mpm_step(struct mpm *mpm)
+{
+    const int32_t blocks = mpm->cells->active, frozen_from = mpm->cells->in_cells;
+    mpm->step++;
+    mpm->time += mpm->time_step;
+    mpm->momentum_factor = mpm->step == 1 ? 0.5 : 1;
+    clear_block_sums(mpm);
+    map_to_grid(mpm);
+    integrate_momentum(mpm);
+    update_velocities(mpm);
+    update_stress_last(mpm);
+    timers_enter(mpm->timers, PHASE_SUMS);
+    sum_particles(mpm, blocks);
+    add_particles(mpm, frozen_from, mpm->cells->count, &mpm->sums);
+    discard_grid(mpm);
+    timers_enter(mpm->timers, PHASE_SUMS);
+    mpm->time_step = next_time_step(mpm);
+    if (mpm->scene->kinetic_damping)
+        damp_kinetic(mpm);
+    timers_enter(mpm->timers, PHASE_OTHER);
+}

@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "output/history.h"
+#include "base/memory.h"
+
+#include <string.h>
+
+/* "job" + ending, or the reference's bare name. Opens the table. */
+static bool open_named(struct table *table, const struct scene *scene, const char *folder, const char *ending,
+                       const char *bare)
+{
+    struct table_style style = {(int)scene->digits, scene->bare_headers};
+    size_t size = strlen(scene->job) + strlen(ending) + 1;
+    char *name = memory_array(size, 1, "a file name");
+    snprintf(name, size, "%s%s", scene->job, ending);
+    bool good = table_open(table, folder, scene->bare_names && bare ? bare : name, style);
+    memory_free(name);
+    return good;
+}
+
+static void write_curve_header(struct history *history, const struct scene *scene)
+{
+    FILE *stream = history->curves.stream;
+    if (scene->bare_headers) {
+        fprintf(stream, "Time engk1       engi1       ");
+        for (size_t i = 0; i < scene->n_curves; i++)
+            fprintf(stream, "%-4s%-8ld", scene->curves[i].result->name, scene->curves[i].particle + 1);
+    } else {
+        fprintf(stream, "VARIABLES = \"Time\" \"engk\" \"engi\"");
+        for (size_t i = 0; i < scene->n_curves; i++)
+            fprintf(stream, " \"%s %ld\"", scene->curves[i].result->name, scene->curves[i].particle + 1);
+    }
+    fputc('\n', stream);
+}
+
+bool history_open(struct history *history, const struct scene *scene, const char *folder)
+{
+    *history = (struct history){0};
+    if (!open_named(&history->curves, scene, folder, "_curv.dat", NULL)
+        || !open_named(&history->energy, scene, folder, "_energy.dat", "EnergyPlot.dat")
+        || !open_named(&history->momentum, scene, folder, "_momentum.dat", "MomentumPlot.dat"))
+        return false;
+    write_curve_header(history, scene);
+    if (!scene->bare_headers) {
+        fprintf(history->energy.stream, "VARIABLES = \"Time\" \"total\" \"kinetic\" \"internal\"\n");
+        fprintf(history->momentum.stream, "VARIABLES = \"Time\" \"px\" \"py\" \"pz\"\n");
+    }
+    return true;
+}
+
+static double curve_value(const struct scene_curve *curve, const struct result_source *source,
+                          const struct history_totals *totals)
+{
+    if (curve->result->is_total_in_curves)
+        return strcmp(curve->result->name, "engk") == 0 ? totals->kinetic : totals->internal;
+    return curve->result->value(source, (size_t)source->store->index_of_id[curve->particle]);
+}
+
+static void write_line(struct table *table, const double *values, int count)
+{
+    for (int i = 0; i < count; i++)
+        table_real(table, values[i]);
+    fputc('\n', table->stream);
+}
+
+void history_step(struct history *history, const struct scene *scene, const struct result_source *source,
+                  const struct history_totals *totals)
+{
+    table_real(&history->curves, totals->time);
+    table_real(&history->curves, totals->kinetic);
+    table_real(&history->curves, totals->internal);
+    for (size_t i = 0; i < scene->n_curves; i++)
+        table_real(&history->curves, curve_value(&scene->curves[i], source, totals));
+    fputc('\n', history->curves.stream);
+    write_line(&history->energy,
+               (double[]){totals->time, totals->kinetic + totals->internal, totals->kinetic, totals->internal}, 4);
+    write_line(&history->momentum,
+               (double[]){totals->time, totals->momentum[0], totals->momentum[1], totals->momentum[2]}, 4);
+}
+
+bool history_flush(struct history *history)
+{
+    return table_flush(&history->curves) && table_flush(&history->energy) && table_flush(&history->momentum);
+}
+
+bool history_close(struct history *history)
+{
+    bool curves = table_close(&history->curves);
+    bool energy = table_close(&history->energy);
+    bool momentum = table_close(&history->momentum);
+    return curves && energy && momentum;
+}

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tables with one line a step: curves, energy, momentum (spec 11). */
+#ifndef OUTPUT_HISTORY_H
+#define OUTPUT_HISTORY_H
+
+#include "deck/scene.h"
+#include "output/table.h"
+
+/* Totals that a step's lines need. */
+struct history_totals {
+    double time, kinetic, internal, momentum[3];
+};
+
+struct history {
+    struct table curves, energy, momentum;
+};
+
+/* Creates the files of the scene in `folder` and writes their headers. */
+bool history_open(struct history *history, const struct scene *scene, const char *folder);
+
+/* Writes one line to each. */
+void history_step(struct history *history, const struct scene *scene, const struct result_source *source,
+                  const struct history_totals *totals);
+
+/* Writes what is buffered; false, after a message, on failure. */
+bool history_flush(struct history *history);
+bool history_close(struct history *history);
+
+#endif

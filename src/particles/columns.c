@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "particles/columns.h"
+#include "base/memory.h"
+
+#include <string.h>
+
+static const struct column_row rows[COLUMN_COUNT] = {
+    [COLUMN_NONE] = {"none", 0, false, NULL, ""},
+    [COLUMN_POSITION] = {"position", 3, false, "length", "present position"},
+    [COLUMN_VELOCITY] = {"velocity", 3, false, "length/time", "velocity"},
+    [COLUMN_STRESS] = {"stress", 6, false, "stress", "Cauchy stress xx yy zz yz xz xy"},
+    [COLUMN_VOLUME] = {"volume", 1, false, "length^3", "present volume"},
+    [COLUMN_MASS] = {"mass", 1, false, "mass", "mass"},
+    [COLUMN_ENERGY] = {"energy", 1, false, "energy", "internal energy"},
+    [COLUMN_VISCOUS_PRESSURE] = {"viscous_pressure", 1, false, "stress", "artificial viscosity pressure"},
+    [COLUMN_PLASTIC_STRAIN] = {"plastic_strain", 1, false, NULL, "effective plastic strain"},
+    [COLUMN_YIELD_STRESS] = {"yield_stress", 1, false, "stress", "present yield stress"},
+    [COLUMN_LOAD] = {"load", 3, false, "force", "force from the load block"},
+    [COLUMN_INITIAL_POSITION] = {"initial_position", 3, false, "length", "position at the start"},
+    [COLUMN_ID] = {"id", 1, true, NULL, "number of the particle"},
+    [COLUMN_BODY] = {"body", 1, true, NULL, "body of the particle"},
+};
+
+const struct column_row *column_row(enum column column)
+{
+    return &rows[column];
+}
+
+struct store *store_open(size_t count, uint64_t wanted)
+{
+    struct store *store = memory_array(1, sizeof *store, "particles");
+    store->count = count;
+    for (int c = COLUMN_NONE + 1; c < COLUMN_COUNT; c++) {
+        if (!(wanted & column_bit((enum column)c)))
+            continue;
+        if (rows[c].is_integer)
+            store->integer[c] = memory_array(count, sizeof(int32_t), rows[c].name);
+        else
+            for (int a = 0; a < rows[c].components; a++)
+                store->real[c][a] = memory_array(count, sizeof(double), rows[c].name);
+    }
+    store->index_of_id = memory_array(count, sizeof(int32_t), "particle index");
+    store->scratch = memory_array(count, sizeof(double), "sorting");
+    return store;
+}
+
+void store_close(struct store *store)
+{
+    if (!store)
+        return;
+    for (int c = 0; c < COLUMN_COUNT; c++) {
+        memory_free(store->integer[c]);
+        for (int a = 0; a < COLUMN_COMPONENTS; a++)
+            memory_free(store->real[c][a]);
+    }
+    memory_free(store->index_of_id);
+    memory_free(store->scratch);
+    memory_free(store);
+}
+
+bool store_has(const struct store *store, enum column column)
+{
+    return store->integer[column] || store->real[column][0];
+}
+
+static void reorder_real(struct store *store, double **values, const int32_t *order)
+{
+    double *target = store->scratch;
+    const double *source = *values;
+    const size_t count = store->count;
+#pragma omp parallel for schedule(static)
+    for (size_t k = 0; k < count; k++)
+        target[k] = source[order[k]];
+    store->scratch = *values;
+    *values = target;
+}
+
+static void reorder_integer(struct store *store, int32_t *values, const int32_t *order)
+{
+    int32_t *target = (int32_t *)(void *)store->scratch;
+    const size_t count = store->count;
+#pragma omp parallel for schedule(static)
+    for (size_t k = 0; k < count; k++)
+        target[k] = values[order[k]];
+    memcpy(values, target, count * sizeof *values);
+}
+
+void store_reorder(struct store *store, const int32_t *order)
+{
+    for (int c = COLUMN_NONE + 1; c < COLUMN_COUNT; c++) {
+        if (store->integer[c])
+            reorder_integer(store, store->integer[c], order);
+        for (int a = 0; a < COLUMN_COMPONENTS && store->real[c][a]; a++)
+            reorder_real(store, &store->real[c][a], order);
+    }
+    const int32_t *id = store->integer[COLUMN_ID];
+    const size_t count = store->count;
+#pragma omp parallel for schedule(static)
+    for (size_t k = 0; k < count; k++)
+        store->index_of_id[id[k]] = (int32_t)k;
+}
+
+size_t store_bytes_per_particle(const struct store *store)
+{
+    size_t bytes = sizeof *store->index_of_id + sizeof *store->scratch;
+    for (int c = COLUMN_NONE + 1; c < COLUMN_COUNT; c++) {
+        if (store->integer[c])
+            bytes += sizeof(int32_t);
+        for (int a = 0; a < COLUMN_COMPONENTS && store->real[c][a]; a++)
+            bytes += sizeof(double);
+    }
+    return bytes;
+}

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Particle properties as named columns: the table that sorting, output, restart and the memory
+ * account go over. A scene has only the columns that its method, laws and outputs ask for. */
+#ifndef PARTICLES_COLUMNS_H
+#define PARTICLES_COLUMNS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum column {
+    COLUMN_NONE, /* ends lists */
+    COLUMN_POSITION,
+    COLUMN_VELOCITY,
+    COLUMN_STRESS,
+    COLUMN_VOLUME,
+    COLUMN_MASS,
+    COLUMN_ENERGY,
+    COLUMN_VISCOUS_PRESSURE,
+    COLUMN_PLASTIC_STRAIN,
+    COLUMN_YIELD_STRESS,
+    COLUMN_LOAD,
+    COLUMN_INITIAL_POSITION,
+    COLUMN_ID,
+    COLUMN_BODY,
+    COLUMN_COUNT
+};
+
+enum { COLUMN_COMPONENTS = 6 };
+
+struct column_row {
+    const char *name;
+    int components;
+    bool is_integer; /* int32_t instead of double */
+    const char *unit;
+    const char *doc;
+};
+
+/* The row of a column. */
+const struct column_row *column_row(enum column column);
+
+/* The particles of a run. Component arrays have `count` entries and are NULL where the scene
+ * does not have the column. Ids and bodies are numbered from 0 here, from 1 in decks and files. */
+struct store {
+    size_t count;
+    double *real[COLUMN_COUNT][COLUMN_COMPONENTS];
+    int32_t *integer[COLUMN_COUNT];
+    int32_t *index_of_id; /* where the particle of an id is now */
+    double *scratch;      /* room for one component while sorting */
+};
+
+/* Allocates the columns in `wanted` (a bit for each column) for `count` particles. */
+struct store *store_open(size_t count, uint64_t wanted);
+void store_close(struct store *store);
+
+bool store_has(const struct store *store, enum column column);
+
+/* Puts particle order[k] at place k, in every column. Ids go along. */
+void store_reorder(struct store *store, const int32_t *order);
+
+/* Bytes per particle in the columns, with index and scratch. */
+size_t store_bytes_per_particle(const struct store *store);
+
+static inline uint64_t column_bit(enum column column)
+{
+    return (uint64_t)1 << column;
+}
+
+#endif

@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#define _POSIX_C_SOURCE 200809L
+#include "run.h"
+#include "base/memory.h"
+#include "base/threads.h"
+#include "deck/echo.h"
+#include "deck/reader.h"
+#include "output/animation.h"
+#include "summary.h"
+#include "version.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* --- reading --- */
+
+/* Name of the output files: the deck's name without folder and without a final ".mpm". */
+static char *job_name(const char *deck)
+{
+    const char *slash = strrchr(deck, '/');
+    const char *name = strcmp(deck, "-") == 0 ? "stdin" : slash ? slash + 1 : deck;
+    size_t length = strlen(name);
+    if (length > 4 && strcmp(name + length - 4, ".mpm") == 0)
+        length -= 4;
+    return memory_text(name, length);
+}
+
+/* Opens the deck; like the reference's, its name may be given without ".mpm". */
+static int include_deck(struct run *run)
+{
+    int failure = text_include_file(run->text, run->options.deck);
+    if (failure != ENOENT)
+        return failure;
+    size_t size = strlen(run->options.deck) + 5;
+    char *path = memory_array(size, 1, "a file name");
+    snprintf(path, size, "%s.mpm", run->options.deck);
+    failure = text_include_file(run->text, path);
+    memory_free(path);
+    return failure;
+}
+
+static void print_diagnostics(struct run *run)
+{
+    bool colour = isatty(STDERR_FILENO) && !getenv("NO_COLOR");
+    diagnostics_print(run->diagnostics, run->text, stderr, colour);
+}
+
+static enum status read_deck(struct run *run)
+{
+    run->diagnostics = diagnostics_open();
+    run->text = text_open(run->diagnostics);
+    int failure = include_deck(run);
+    if (failure) {
+        status_error("cannot read '%s': %s", run->options.deck, strerror(failure));
+        return STATUS_FILE;
+    }
+    run->scene = reader_read(run->text, run->diagnostics);
+    run->scene->job = job_name(run->options.deck);
+    print_diagnostics(run);
+    return diagnostics_errors(run->diagnostics) > 0 ? STATUS_DECK : STATUS_FINISHED;
+}
+
+static enum status build(struct run *run)
+{
+    run->mpm = mpm_open(run->scene, &run->timers, run->diagnostics);
+    print_diagnostics(run);
+    run->source = (struct result_source){run->mpm->store, run->mpm->material_of_body, run->mpm->material_number_of_body};
+    return diagnostics_errors(run->diagnostics) > 0 ? STATUS_DECK : STATUS_FINISHED;
+}
+
+/* --- output --- */
+
+static enum status open_log(struct run *run)
+{
+    struct table table = {0};
+    size_t size = strlen(run->scene->job) + 5;
+    char *name = memory_array(size, 1, "a file name");
+    snprintf(name, size, "%s.out", run->scene->job);
+    bool good = table_open(&table, run->options.folder, name, (struct table_style){7, false});
+    memory_free(name);
+    run->log = table.stream;
+    run->log_path = table.path;
+    return good ? STATUS_FINISHED : STATUS_FILE;
+}
+
+static enum status open_output(struct run *run)
+{
+    const struct scene *scene = run->scene;
+    const char *folder = run->options.folder;
+    if (*folder && mkdir(folder, 0777) != 0 && errno != EEXIST) {
+        status_error("cannot create the folder '%s': %s", folder, strerror(errno));
+        return STATUS_FILE;
+    }
+    run->has_output = true;
+    if (open_log(run) != STATUS_FINISHED || !history_open(&run->history, scene, folder))
+        return STATUS_FILE;
+    if (scene->writes_animation) {
+        size_t size = strlen(scene->job) + 10;
+        char *name = memory_array(size, 1, "a file name");
+        snprintf(name, size, "%s_anim.dat", scene->job);
+        bool good = table_open(&run->animation, folder, name, (struct table_style){(int)scene->digits, scene->bare_headers});
+        memory_free(name);
+        if (!good)
+            return STATUS_FILE;
+        animation_header(&run->animation, scene);
+        run->is_shown = memory_array(run->mpm->store->count, 1, "output");
+    }
+    return STATUS_FINISHED;
+}
+
+/* Marks the particles that the animation file shows: those with a cell (all of them at the
+ * start), created inside the pt2d box of their body. */
+static void mark_shown(struct run *run)
+{
+    const struct store *store = run->mpm->store;
+    const double *const x[3] = {store->real[COLUMN_POSITION][0], store->real[COLUMN_POSITION][1],
+                                store->real[COLUMN_POSITION][2]};
+    if (run->dumps == 0) {
+        for (size_t p = 0; p < store->count; p++) {
+            const struct scene_body *body = &run->scene->bodies[store->integer[COLUMN_BODY][p]];
+            bool is_in = true;
+            for (int a = 0; a < 3 && body->has_plot_box; a++)
+                is_in = is_in && x[a][p] >= body->plot_box[2 * a] && x[a][p] <= body->plot_box[2 * a + 1];
+            run->is_shown[store->integer[COLUMN_ID][p]] = is_in;
+        }
+        return;
+    }
+    const struct cell_list *cells = run->mpm->cells;
+    for (int32_t k = cells->in_cells; k < cells->count; k++)
+        run->is_shown[store->integer[COLUMN_ID][cells->order[k]]] = 0;
+}
+
+static enum status write_dump(struct run *run)
+{
+    bool good = true;
+    if (run->scene->writes_animation) {
+        mark_shown(run);
+        good = animation_zone(&run->animation, run->scene, &run->source, run->is_shown, run->mpm->time);
+    }
+    run->dumps++;
+    fprintf(run->log, "Write output data at time %.6E\n", run->mpm->time);
+    good = history_flush(&run->history) && good;
+    if (fflush(run->log) != 0) {
+        status_error("cannot write '%s': %s", run->log_path, strerror(errno));
+        good = false;
+    }
+    return good ? STATUS_FINISHED : STATUS_FILE;
+}
+
+static void write_report_line(struct run *run)
+{
+    const struct mpm *mpm = run->mpm;
+    fprintf(run->log, " Step=%6ld   T=%10.3E   DT=%10.3E   K.E.=%10.3E  T.E.=%10.3E\n", mpm->step, mpm->time,
+            mpm->time_step, mpm->sums.kinetic, mpm->sums.kinetic + mpm->sums.internal);
+    fprintf(run->log, "              Mx=%10.3E   My=%10.3E   Mz=%10.3E\n", mpm->sums.momentum[0],
+            mpm->sums.momentum[1], mpm->sums.momentum[2]);
+}
+
+/* --- the run --- */
+
+enum status run_open(struct run *run, const struct run_options *options)
+{
+    *run = (struct run){.options = *options};
+    run->started = threads_clock();
+    timers_start(&run->timers);
+    enum status status = read_deck(run);
+    if (status == STATUS_FINISHED)
+        status = build(run);
+    if (status != STATUS_FINISHED || options->only_check)
+        return status;
+    status = open_output(run);
+    if (status != STATUS_FINISHED)
+        return status;
+    fprintf(run->log, "! mpm3d %s: the deck as understood; it can be run again\n", VERSION);
+    echo_scene(run->scene, run->log, run->scene->n_particles <= 20000);
+    summary_start(run->mpm, run->log);
+    run->next_output = (float)run->scene->output_interval;
+    timers_enter(&run->timers, PHASE_OUTPUT);
+    status = write_dump(run);
+    timers_enter(&run->timers, PHASE_OTHER);
+    progress_open(&run->progress, !options->quiet);
+    return status;
+}
+
+bool run_goes_on(const struct run *run)
+{
+    return run->mpm->step == 0 || run->mpm->time <= run->scene->end_time;
+}
+
+/* The lines of this step, and the dump when it is due. The reference counts output times in
+ * single precision; so does this (spec 5). */
+static enum status write_step(struct run *run)
+{
+    const struct mpm *mpm = run->mpm;
+    const struct history_totals totals = {mpm->time, mpm->sums.kinetic, mpm->sums.internal,
+                                          {mpm->sums.momentum[0], mpm->sums.momentum[1], mpm->sums.momentum[2]}};
+    enum status status = STATUS_FINISHED;
+    history_step(&run->history, run->scene, &run->source, &totals);
+    if (mpm->time >= (double)run->next_report) {
+        run->next_report = (float)((double)run->next_report + run->scene->report_interval);
+        write_report_line(run);
+    }
+    if (mpm->time >= (double)run->next_output) {
+        run->next_output = (float)((double)run->next_output + run->scene->output_interval);
+        status = write_dump(run);
+    }
+    return status;
+}
+
+enum status run_step(struct run *run)
+{
+    mpm_step(run->mpm);
+    struct instability instability = mpm_check(run->mpm);
+    if (instability.is_stopped) {
+        progress_close(&run->progress);
+        summary_instability(run->mpm, &instability, stderr);
+        summary_instability(run->mpm, &instability, run->log);
+        return STATUS_UNSTABLE;
+    }
+    timers_enter(&run->timers, PHASE_OUTPUT);
+    enum status status = write_step(run);
+    progress_show(&run->progress, run->mpm->step, run->mpm->time, run->scene->end_time);
+    timers_enter(&run->timers, PHASE_OTHER);
+    return status;
+}
+
+/* Closes the files; false when one could not be completed. */
+static bool close_output(struct run *run)
+{
+    bool good = true;
+    if (run->animation.stream || run->animation.path)
+        good = table_close(&run->animation);
+    good = history_close(&run->history) && good;
+    if (run->log && (ferror(run->log) | fclose(run->log)) != 0) {
+        status_error("cannot write '%s': %s", run->log_path, strerror(errno));
+        good = false;
+    }
+    memory_free(run->log_path);
+    return good;
+}
+
+enum status run_close(struct run *run, enum status status)
+{
+    progress_close(&run->progress);
+    if (run->log && run->mpm) {
+        timers_enter(&run->timers, PHASE_OTHER);
+        double seconds = threads_clock() - run->started;
+        summary_end(run->mpm, &run->timers, seconds, status, run->log);
+        if (!run->options.quiet)
+            summary_end(run->mpm, &run->timers, seconds, status, stderr);
+    }
+    if (run->has_output && !close_output(run) && status == STATUS_FINISHED)
+        status = STATUS_FILE;
+    memory_free(run->is_shown);
+    mpm_close(run->mpm);
+    scene_close(run->scene);
+    text_close(run->text);
+    diagnostics_close(run->diagnostics);
+    return status;
+}

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One run: a deck, its method, its output. All that it owns hangs here, so that several runs can
+ * live in one process. */
+#ifndef RUN_H
+#define RUN_H
+
+#include "base/status.h"
+#include "base/timers.h"
+#include "deck/diagnostics.h"
+#include "mpm/mpm.h"
+#include "output/history.h"
+#include "output/progress.h"
+
+/* What the command line says. */
+struct run_options {
+    const char *deck;   /* path, or "-" */
+    const char *folder; /* of the output files; "" is the present one */
+    bool quiet;
+    bool only_check;
+};
+
+struct run {
+    struct run_options options;
+    struct diagnostics *diagnostics;
+    struct deck_text *text;
+    struct scene *scene;
+    struct timers timers;
+    struct mpm *mpm;
+    bool has_output;
+    FILE *log;
+    char *log_path;
+    struct table animation;
+    struct history history;
+    struct progress progress;
+    struct result_source source;
+    unsigned char *is_shown; /* per id, room for the animation */
+    float next_output, next_report;
+    long dumps;
+    double started;
+};
+
+/* Reads the deck, builds the scene and the method, opens the files and writes the start state.
+ * Returns STATUS_FINISHED, or why it can't run (messages are printed). Close it in any case. */
+enum status run_open(struct run *run, const struct run_options *options);
+
+/* Whether the end time is not passed yet. */
+bool run_goes_on(const struct run *run);
+
+/* One step with its output. Anything but STATUS_FINISHED ends the run. */
+enum status run_step(struct run *run);
+
+/* Writes the summary and closes the files; `status` says how the run ended. Returns it, or
+ * STATUS_FILE when a file could not be completed. */
+enum status run_close(struct run *run, enum status status);
+
+#endif

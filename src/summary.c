@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "summary.h"
+#include "base/threads.h"
+
+#include <math.h>
+
+enum { SHOWN_LOST = 10 };
+
+static void print_columns(const struct store *store, FILE *stream)
+{
+    fprintf(stream, "columns in use:");
+    for (int c = COLUMN_NONE + 1; c < COLUMN_COUNT; c++)
+        if (store_has(store, (enum column)c))
+            fprintf(stream, " %s", column_row((enum column)c)->name);
+    fprintf(stream, "\n");
+}
+
+void summary_check(const struct mpm *mpm, FILE *stream)
+{
+    const struct cell_frame *frame = &mpm->cells->frame;
+    fprintf(stream, "%zu particles in %zu bodies, %zu materials\n", mpm->store->count, mpm->scene->n_bodies,
+            mpm->scene->n_materials);
+    fprintf(stream, "grid of %d x %d x %d cells of %g; %d blocks of 4 x 4 x 4 hold particles\n", frame->cells[0],
+            frame->cells[1], frame->cells[2], frame->size, mpm->cells->active);
+    fprintf(stream, "first time step %.6E, about %.0f steps to the end\n", mpm->first_time_step,
+            ceil(mpm->scene->end_time / mpm->first_time_step));
+}
+
+void summary_start(const struct mpm *mpm, FILE *stream)
+{
+    double particles = cell_list_bytes_per_particle(mpm->cells) + (double)store_bytes_per_particle(mpm->store);
+    fprintf(stream, "\n");
+    summary_check(mpm, stream);
+    print_columns(mpm->store, stream);
+    fprintf(stream, "memory: %.0f bytes per particle, %.0f of them for the grid\n",
+            particles + (double)grid_bytes(mpm->grid) / (double)mpm->store->count,
+            (double)grid_bytes(mpm->grid) / (double)mpm->store->count);
+    fprintf(stream, "mass cutoff of the nodes %.6E\n", mpm->scene->mass_cutoff);
+    fprintf(stream, "kinetic energy %.9E, internal energy %.9E\n\n", mpm->sums.kinetic, mpm->sums.internal);
+}
+
+void summary_instability(const struct mpm *mpm, const struct instability *instability, FILE *stream)
+{
+    fprintf(stream, "mpm3d: the run became unstable at step %ld, time %.6E: %s\n", mpm->step, mpm->time,
+            instability->cause);
+    if (instability->particle >= 0) {
+        size_t p = (size_t)mpm->store->index_of_id[instability->particle];
+        fprintf(stream, "       particle %ld of body %d at (%.6g, %.6g, %.6g), velocity (%.6g, %.6g, %.6g)\n",
+                instability->particle + 1, mpm->store->integer[COLUMN_BODY][p] + 1,
+                mpm->store->real[COLUMN_POSITION][0][p], mpm->store->real[COLUMN_POSITION][1][p],
+                mpm->store->real[COLUMN_POSITION][2][p], mpm->store->real[COLUMN_VELOCITY][0][p],
+                mpm->store->real[COLUMN_VELOCITY][1][p], mpm->store->real[COLUMN_VELOCITY][2][p]);
+    }
+    fprintf(stream, "       %s; the output up to the step before is kept\n", instability->advice);
+}
+
+static void print_timers(const struct mpm *mpm, const struct timers *timers, double seconds, FILE *stream)
+{
+    double updates = (double)mpm->store->count * (double)(mpm->step > 0 ? mpm->step : 1);
+    fprintf(stream, "\n  phase                  seconds       %%   ns per particle-step\n");
+    for (int phase = 0; phase < PHASE_COUNT; phase++) {
+        double spent = timers->seconds[phase];
+        fprintf(stream, "  %-20s %9.3f  %6.1f   %8.2f\n", timers_name((enum phase)phase), spent,
+                seconds > 0 ? 100 * spent / seconds : 0, 1e9 * spent / updates);
+    }
+    double solver = seconds - timers->seconds[PHASE_OUTPUT] - timers->seconds[PHASE_OTHER];
+    fprintf(stream, "  %-20s %9.3f  %6.1f   %8.2f without output, %d threads\n\n", "total", seconds, 100.0,
+            1e9 * solver / updates, threads_available());
+}
+
+static void print_lost(const struct mpm *mpm, FILE *stream)
+{
+    const struct cell_list *cells = mpm->cells;
+    int32_t lost = cells->count - cells->in_cells;
+    if (lost == 0) {
+        fprintf(stream, "no particle lost");
+        return;
+    }
+    fprintf(stream, "%d particles left the grid and are frozen (first ids:", lost);
+    for (int32_t k = cells->in_cells; k < cells->count && k < cells->in_cells + SHOWN_LOST; k++)
+        fprintf(stream, " %d", mpm->store->integer[COLUMN_ID][cells->order[k]] + 1);
+    fprintf(stream, "%s)", lost > SHOWN_LOST ? " ..." : "");
+}
+
+/* Change of momentum relative to the sum of all particles' |m v| scale. */
+static double momentum_change(const struct mpm *mpm)
+{
+    double change = 0, scale = 0, mass = 0;
+    for (size_t p = 0; p < mpm->store->count; p++)
+        mass += mpm->store->real[COLUMN_MASS][0][p];
+    for (int a = 0; a < 3; a++) {
+        double difference = mpm->sums.momentum[a] - mpm->start_momentum[a];
+        change += difference * difference;
+    }
+    scale = sqrt(2 * mass * fmax(mpm->sums.kinetic, mpm->start_energy));
+    return scale > 0 ? sqrt(change) / scale : 0;
+}
+
+void summary_end(const struct mpm *mpm, const struct timers *timers, double seconds, enum status status, FILE *stream)
+{
+    static const char *const endings[] = {[STATUS_FINISHED] = "finished", [STATUS_UNSTABLE] = "stopped, unstable",
+                                          [STATUS_FILE] = "stopped, a file could not be written"};
+    const char *ending = status == STATUS_INTERRUPTED ? "interrupted" : endings[status];
+    print_timers(mpm, timers, seconds, stream);
+    fprintf(stream, "%s after %ld steps at time %.6E: ", ending, mpm->step, mpm->time);
+    print_lost(mpm, stream);
+    fprintf(stream, ", energy balance %.1e, momentum change %.1e\n", mpm_energy_error(mpm), momentum_change(mpm));
+}

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a run says at its start and end: the model, the timer table and the verdict. */
+#ifndef SUMMARY_H
+#define SUMMARY_H
+
+#include "base/status.h"
+#include "mpm/mpm.h"
+
+#include <stdio.h>
+
+/* Counts, memory, energies and the first time step. */
+void summary_start(const struct mpm *mpm, FILE *stream);
+
+/* Timer table by phase, cost per particle-step, particles lost, energy and momentum balance. */
+void summary_end(const struct mpm *mpm, const struct timers *timers, double seconds, enum status status, FILE *stream);
+
+/* Why a run was stopped: step, time, particle, cause, what to try. */
+void summary_instability(const struct mpm *mpm, const struct instability *instability, FILE *stream);
+
+/* The same start in a few lines, for --check. */
+void summary_check(const struct mpm *mpm, FILE *stream);
+
+#endif

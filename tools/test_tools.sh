@@ -1,0 +1,269 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# test_tools.sh: tests of tecdiff and tecstat as a user runs them.
+#
+# usage: test_tools.sh FOLDER_WITH_THE_TOOLS
+#
+# Builds nothing. Prints "ok NAME" or "FAIL NAME: reason" per test and a last line
+# "N passed, N failed"; exit status 1 when any failed, 2 when the tools are not there.
+
+LC_ALL=C
+export LC_ALL
+# a sanitizer's report must not look like one of the tools' own exit statuses
+ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}exitcode=99"
+UBSAN_OPTIONS="${UBSAN_OPTIONS:+$UBSAN_OPTIONS:}halt_on_error=1:exitcode=99"
+export ASAN_OPTIONS UBSAN_OPTIONS
+
+if [ $# -ne 1 ]; then
+    echo "usage: test_tools.sh FOLDER_WITH_THE_TOOLS" >&2
+    exit 2
+fi
+tools=$(cd "$1" 2>/dev/null && pwd)
+for tool in tecdiff tecstat; do
+    if [ ! -x "$tools/$tool" ]; then
+        echo "test_tools.sh: no program $1/$tool" >&2
+        exit 2
+    fi
+done
+
+work=$(mktemp -d "${TMPDIR:-/tmp}/test_tools.XXXXXX") || exit 2
+trap 'rm -rf "$work"' EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM
+cd "$work" || exit 2
+
+passed=0
+failed=0
+
+pass() {
+    echo "ok $1"
+    passed=$((passed + 1))
+}
+
+reject() {
+    echo "FAIL $1: $2"
+    failed=$((failed + 1))
+}
+
+# expect NAME STATUS OUTPUT ERROR TOOL ARGUMENT...
+# OUTPUT: the exact standard output with lines joined by " / ", or "*" for anything.
+# ERROR: a text that standard error must contain, or "" when it must be empty.
+expect() {
+    name=$1
+    status=$2
+    output=$3
+    error=$4
+    tool=$5
+    shift 5
+    "$tools/$tool" "$@" >out 2>err </dev/null
+    found_status=$?
+    found_output=$(awk 'NR > 1 { printf " / " } { printf "%s", $0 }' out)
+    if [ "$found_status" -ne "$status" ]; then
+        reject "$name" "exit status $found_status instead of $status: $(head -n 1 err)"
+    elif [ "$output" != "*" ] && [ "$found_output" != "$output" ]; then
+        reject "$name" "printed '$found_output' instead of '$output'"
+    elif [ -z "$error" ] && [ -s err ]; then
+        reject "$name" "unexpected message: $(head -n 1 err)"
+    elif [ -n "$error" ] && ! grep -F -e "$error" err >/dev/null; then
+        reject "$name" "the message '$(head -n 1 err)' lacks '$error'"
+    else
+        pass "$name"
+    fi
+}
+
+# contains NAME TEXT: the last tool's output has the text
+contains() {
+    if grep -F -e "$2" out >/dev/null; then
+        pass "$1"
+    else
+        reject "$1" "the output lacks '$2'"
+    fi
+}
+
+# ---- files ----
+
+cat >full.dat <<'END'
+TITLE = "a bar # with a sign"
+VARIABLES = "X" "Y" "Z"
+"mat " "disx"
+DATASETAUXDATA Common.x="a b"
+ZONE T="time 0.000E+00" I=2, F=POINT
+STRANDID=1, SOLUTIONTIME=0.0
+0 0 0 1 0
+1 0 0 1 0
+
+ZONE T="time 1.000E-03" I=     4, F=POINT, STRANDID=1
+AUXDATA step = "17"
+SOLUTIONTIME=1.0000001E-03 DT=(SINGLE SINGLE SINGLE
+ SINGLE SINGLE)
+# four rows
+0.0 0.0 0.0 1 0.00
+0.5 0.0 0.0 1 0.10
+1.0 1.0 0.0 2 0.20
+3.0 2.0 0.0 2 0.60 # the end
+END
+
+cat >bare.dat <<'END'
+TITLE = "Taylor bar                                                  "
+VARIABLES= "X"   "Y"   "Z"   "mat " "disx"
+ZONE T="time 0.000E+00"
+  0.0000E+00  0.0000E+00 -0.0000E+00  1  0.0000E+00
+  0.1000E+01  0.0000E+00  0.0000E+00  1  0.0000E+00
+ZONE T="time 0.100E-02"
+  0.0000E+00  0.0000E+00  0.0000E+00  1  0.0000E+00
+  0.5000E+00  0.0000E+00  0.0000E+00  1  0.1000E+00
+  0.1000E+01  0.1000E+01  0.0000E+00  2  0.2000E+00
+  0.3000E+01  0.2000E+01  0.0000E+00  2  0.6000E+00
+END
+
+printf 'Time engk1       engi1       \n 0.0 1.0 2.0\n 0.5 3.0 4.0\n' >curve.dat
+printf '0.1234-104 1.0D-3 -.5e+1 +0.2E+02\n' >fortran.dat
+printf 'a b c\nNaN -Infinity 1\nnan -inf 2\n' >nan.dat
+printf 'a b c\nNaN -Infinity 1\n7 -inf 2\n' >nan2.dat
+printf 'a b c\nNaN -Infinity 1\nnan inf 2\n' >inf2.dat
+printf 't v\n1 0.1\n2 100\n' >one.dat
+printf 't v\n1 0.10000000000000002\n2 100\n' >ulp.dat
+printf 't v\n1 0.11\n2 100\n' >off.dat
+printf 't w\n1 0.1\n2 100\n' >renamed.dat
+printf 't v\n1 0.1\n' >short.dat
+printf 'Disx\tX\r\n0.2,1.2\r\n' >commas.dat
+
+# ---- tecdiff ----
+
+expect diff_equal_files 0 "" "" tecdiff full.dat full.dat
+expect diff_bare_header_and_layout 0 "" "" tecdiff full.dat bare.dat
+expect diff_one_ulp 1 "*" "" tecdiff one.dat ulp.dat
+contains diff_one_ulp_entry "zone 1 row 1 v: 0.10000000000000001 in A, 0.10000000000000002 in B"
+expect diff_absolute_tolerance 0 "" "" tecdiff -a 1e-16 one.dat ulp.dat
+expect diff_relative_tolerance 0 "" "" tecdiff -r 0.1 one.dat off.dat
+expect diff_relative_too_small 1 "*" "" tecdiff -r 0.05 one.dat off.dat
+expect diff_scale_of_column 0 "" "" tecdiff -r 1e-3 --scale one.dat off.dat
+expect diff_quiet 1 "" "" tecdiff -q one.dat off.dat
+expect diff_nan_equals_nan 0 "" "" tecdiff nan.dat nan.dat
+expect diff_nan_and_number 1 "*" "" tecdiff -a 1e300 -r 1 nan.dat nan2.dat
+contains diff_nan_named "zone 1 row 2 a: nan in A, 7 in B"
+expect diff_infinities 1 "*" "" tecdiff -r 1 --scale nan.dat inf2.dat
+expect diff_minus_zero 0 "" "" tecdiff bare.dat full.dat
+expect diff_rows 1 "zone 1: 2 rows in A, 1 rows in B" "" tecdiff one.dat short.dat
+expect diff_names 1 "variable 2: 'v' in A, 'w' in B (not compared)" "" tecdiff one.dat renamed.dat
+expect diff_ignore_names 0 "" "" tecdiff --ignore-names one.dat renamed.dat
+expect diff_variable_count 1 "*" "" tecdiff --ignore-names one.dat curve.dat
+contains diff_variable_count_stated "variables: 2 in A, 3 in B"
+
+sed '/time 0.100E-02/,$d' bare.dat >one_zone.dat
+expect diff_zone_count 1 "zones: 2 in A, 1 in B" "" tecdiff bare.dat one_zone.dat
+sed 's/0.100E-02/0.200E-02/' bare.dat >later.dat
+expect diff_solution_time 1 "*" "" tecdiff bare.dat later.dat
+contains diff_solution_time_stated "zone 2: solution time 0.001"
+
+awk 'BEGIN { for (i = 1; i <= 30; ++i) print i, 2 * i }' >count_a.dat
+awk 'BEGIN { for (i = 1; i <= 30; ++i) print i, 2 * i + i / 1000 }' >count_b.dat
+expect diff_many 1 "*" "" tecdiff -n 3 count_a.dat count_b.dat
+contains diff_many_table "c2                   30  3.000000e-02      1        30"
+contains diff_many_counted "3 of 30 differing entries shown"
+if [ "$(grep -c '^zone' out)" -eq 3 ]; then pass diff_count_option; else
+    reject diff_count_option "-n 3 printed $(grep -c '^zone' out) entries"
+fi
+expect diff_standard_input_empty 2 "" "-: error: the file is empty" tecdiff - one.dat
+expect diff_no_files 2 "" "usage: tecdiff" tecdiff
+expect diff_negative_tolerance 2 "" "tolerance" tecdiff -a -1 one.dat one.dat
+expect diff_unknown_option 2 "" "unknown option '--scales'" tecdiff --scales one.dat one.dat
+expect diff_help 0 "*" "" tecdiff --help
+contains diff_help_example "example: tecdiff"
+
+# ---- tecstat ----
+
+expect stat_several_variables 0 "3 / 0.6" "" tecstat full.dat max X disx --zone last
+expect stat_max_case_insensitive 0 "3" "" tecstat full.dat max x
+expect stat_mean 0 "0.225" "" tecstat full.dat mean disx
+expect stat_range 0 "3" "" tecstat full.dat range X
+expect stat_sum 0 "4.5" "" tecstat full.dat sum X
+expect stat_rms 0 "1.60078105936" "" tecstat full.dat rms X
+expect stat_absmax 0 "5" "" tecstat fortran.dat absmax c3
+expect stat_first_and_zone 0 "1" "" tecstat full.dat --zone first last X
+expect stat_zone_number 0 "2" "" tecstat full.dat --zone 1 count
+expect stat_row 0 "1 / 0.2" "" tecstat full.dat row 3 X disx
+expect stat_where 0 "2" "" tecstat full.dat --where MAT 2 2 --where X -1e0 2.9 max mat
+expect stat_where_last 0 "1" "" tecstat full.dat max X --where mat 2 2 --where X -1e0 2.9
+expect stat_no_rows 1 "" "no rows are left of 4" tecstat full.dat --where mat 7 8 max X
+expect stat_count_zero 1 "0" "no rows are left" tecstat full.dat --where mat 7 8 count
+expect stat_bare_words 0 "3 / 4" "" tecstat curve.dat last engk1 engi1
+expect stat_fortran_exponents 0 "1.234e-105 / 0.001 / -5 / 20" "" \
+    tecstat fortran.dat first c1 c2 c3 c4
+expect stat_nan_propagates 0 "nan / -inf / 2" "" tecstat nan.dat max a b c
+expect stat_commas_and_carriage_returns 0 "0.2" "" tecstat commas.dat max disx
+# initial X of the rows: 0, 0.4, 0.8, 2.4; (0.6 - 0)/2.4
+expect stat_strain 0 "0.25" "" tecstat full.dat strain disx X
+# ends with two rows each: displacements 0.1 and 0.3 at 0, -0.2 and 0 at 2: (-0.1 - 0.2)/2
+printf 'x u\n.1 .1\n.3 .3\n1.8 -.2\n2 0\n1 0\n' >ends.dat
+expect stat_strain_mean_at_ends 0 "-0.15" "" tecstat ends.dat strain u x
+expect stat_strain_no_length 2 "" "same initial coordinate" tecstat full.dat strain Z Z
+expect stat_unknown_variable 2 "" "no variable 'pres'; the file has: X Y Z mat disx" \
+    tecstat full.dat max X pres
+expect stat_no_such_zone 2 "" "no zone 3, the file has 2" tecstat full.dat --zone 3 max X
+expect stat_no_such_row 2 "" "no row 5, there are 4" tecstat full.dat row 5 X
+expect stat_unknown_statistic 2 "" "unknown statistic" tecstat full.dat median X
+expect stat_help 0 "*" "" tecstat --help
+contains stat_help_example "example: tecstat"
+
+# ---- damaged files: a message with the line, never a crash ----
+
+printf '1 2 3\n4 5\n' >columns.dat
+expect bad_column_count 2 "" "columns.dat:2: error: the row has 2 columns instead of 3" \
+    tecstat columns.dat max c1
+printf '1 2 3\n4 5*6 7\n' >token.dat
+expect bad_number 2 "" "token.dat:2: error: column 2: '5*6' is not a number" \
+    tecstat token.dat max c1
+printf '1 1e999\n' >huge.dat
+expect bad_number_too_large 2 "" "huge.dat:1: error: column 2: '1e999' is too large" \
+    tecstat huge.dat max c1
+sed 's/I=     4/I=5/' full.dat >announced.dat
+expect bad_announced_rows 2 "" "zone 2 ends after 4 rows, but its header says I=5" \
+    tecstat announced.dat max X
+sed 's/I=     4/I=3/' full.dat >more.dat
+expect bad_more_rows 2 "" "more.dat:18: error: zone 2 has more rows" tecstat more.dat max X
+sed '$d' full.dat >cut_row.dat
+expect bad_cut_between_rows 2 "" "cut_row.dat:17: error: zone 2 ends after 3 rows" \
+    tecstat cut_row.dat max X
+printf '1 2\n3 0.1234E+0' >cut_number.dat
+expect bad_cut_in_number 2 "" "cut_number.dat:2: error: the last row does not end" \
+    tecstat cut_number.dat max c1
+sed '/time 0.100E-02/q' bare.dat >cut_zone.dat
+expect bad_cut_after_zone 2 "" "cut_zone.dat:6: error: zone 2 has no rows" \
+    tecstat cut_zone.dat max X
+printf 'VARIABLES= "X"   "Y"   "Z"   "m"pre"s\n1 2 3 4 5\n' >mangled.dat
+expect bad_mangled_names 2 "" "mangled.dat:1: error:" tecstat mangled.dat max X
+printf 'VARIABLES = X\nZONE I=1, F=BLOCK\n1\n' >block.dat
+expect bad_block_form 2 "" "block.dat:2: error: the data must be in POINT form" \
+    tecstat block.dat max X
+: >empty.dat
+expect bad_empty_file 2 "" "empty.dat: error: the file is empty" tecstat empty.dat max X
+expect bad_missing_file 2 "" "missing.dat: error: cannot be opened" tecdiff missing.dat one.dat
+expect bad_directory 2 "" "error: cannot be read" tecstat . max X
+awk 'BEGIN { for (i = 1; i < 4096; ++i) printf "%c%c", (i * 7919) % 251 + 1, i % 256 }' >garbage.dat
+expect bad_garbage 2 "" "garbage.dat:1: error:" tecstat garbage.dat max X
+printf '\001\002\003\377\000\nabc\n' >binary.dat
+expect bad_binary 2 "" "binary.dat:1: error: a zero byte" tecdiff binary.dat binary.dat
+
+# a line far longer than any buffer
+awk 'BEGIN { for (i = 0; i < 20000; ++i) printf "%d ", i; print "" }' >long.dat
+expect long_line 0 "19999" "" tecstat long.dat max c20000
+
+# every beginning of a file: an answer or an error, no other exit status
+size=$(wc -c <full.dat)
+length=0
+strange=
+while [ "$length" -lt "$size" ]; do
+    dd if=full.dat of=beginning.dat bs=1 count="$length" 2>/dev/null
+    "$tools/tecstat" beginning.dat sum X >out 2>err </dev/null
+    status=$?
+    if [ "$status" -ne 0 ] && [ "$status" -ne 2 ]; then strange="$strange $length"; fi
+    length=$((length + 7))
+done
+if [ -z "$strange" ]; then pass every_beginning; else
+    reject every_beginning "strange exit status for the first$strange bytes"
+fi
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]
