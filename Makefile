@@ -26,9 +26,9 @@ objects := $(sources:src/%.c=$(build)/%.o)
 library := $(filter-out $(build)/main.o,$(objects))
 tools   := $(build)/tecdiff $(build)/tecstat
 
-all: mpm3d $(tools)
+# The program at the top is that of the last plain build.
+all: $(build)/mpm3d $(tools) $(if $(filter 1,$(SAN)),,mpm3d)
 
-# The program at the top is the one of the last build.
 mpm3d: $(build)/mpm3d
 	cp -f $< $@
 
@@ -42,5 +42,55 @@ $(build)/%.o: src/%.c
 $(build)/tec%: tools/tec%.c tools/tecplot_read.c tools/tecplot_read.h
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) $(flags) $(CFLAGS) $(san) $< tools/tecplot_read.c -lm -o $@
+
+unit_tests := $(patsubst tests/unit/%.c,$(build)/tests/%,$(wildcard tests/unit/test_*.c))
+
+$(build)/tests/%: tests/unit/%.c tests/unit/check.h $(library)
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS) $(filter-out -MMD -MP,$(flags)) $(CFLAGS) $(san) $(openmp) $< $(library) -lm -o $@
+
+# Builds and runs the tensile test of the thesis, and prints its result beside the theory.
+run: all
+	$(build)/mpm3d -o build/run decks/thesis/tensile.mpm
+	@sh tools/show_tensile.sh $(build)/tecstat build/run/tensile_anim.dat
+
+# The whole suite; the last line counts.
+test: all $(unit_tests) $(build)/fuzz_replay
+	@sh tests/run.sh $(build)
+
+# The suite under address and undefined sanitizers with gcc and clang, warnings as errors, and the
+# module prefixes of all functions that are visible outside their file.
+check:
+	$(MAKE) WERROR=1 SAN=1 CFLAGS="-O1 -g" CC=gcc test
+	@if command -v clang >/dev/null; then $(MAKE) WERROR=1 SAN=1 CFLAGS="-O1 -g" CC=clang test && \
+	    $(MAKE) WERROR=1 CC=clang test; else echo "no clang here: its half of the check is left out"; fi
+	$(MAKE) WERROR=1 CC=gcc test
+	sh tools/check_names.sh build/gcc
+
+install: all
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/mpm3d
+	install -m 755 $(build)/mpm3d $(build)/tecdiff $(build)/tecstat $(DESTDIR)$(PREFIX)/bin
+	cp -r decks $(DESTDIR)$(PREFIX)/share/mpm3d
+
+uninstall:
+	rm -f $(addprefix $(DESTDIR)$(PREFIX)/bin/,mpm3d tecdiff tecstat)
+	rm -rf $(DESTDIR)$(PREFIX)/share/mpm3d
+
+clean:
+	rm -rf build mpm3d
+
+help:
+	@echo "make          builds mpm3d, tecdiff and tecstat"
+	@echo "make run      builds, runs the tensile test, prints its result beside the theory"
+	@echo "make test     runs all tests; the last line counts"
+	@echo "make check    the tests under sanitizers, with gcc and clang, warnings as errors"
+	@echo "make bench    speed: cost by phase, threads, size; against this machine's memory bandwidth"
+	@echo "make study    accuracy: convergence and conservation by scheme"
+	@echo "make fuzz     fuzzes the deck reader (clang)"
+	@echo "make install  PREFIX=$(PREFIX), DESTDIR; make uninstall; make clean"
+	@echo "options: CC, CFLAGS, NATIVE=1 (this machine's instructions), SAN=1 (sanitizers)"
+
+.PHONY: all run test check bench study fuzz install uninstall clean help
+.DEFAULT_GOAL := all
 
 -include $(objects:.o=.d)

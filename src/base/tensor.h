@@ -4,23 +4,24 @@
 #ifndef BASE_TENSOR_H
 #define BASE_TENSOR_H
 
+#include "base/threads.h"
 #include <math.h>
 
 /* Mean of the normal components. */
-static inline double tensor_mean(const double s[6])
+THREADS_INLINE double tensor_mean(const double s[6])
 {
     return (s[0] + s[1] + s[2]) / 3;
 }
 
 /* Von Mises equivalent sqrt(3 J2) from the six stress components. */
-static inline double tensor_von_mises(double xx, double yy, double zz, double yz, double xz, double xy)
+THREADS_INLINE double tensor_von_mises(double xx, double yy, double zz, double yz, double xz, double xy)
 {
     double a = xx - yy, b = yy - zz, c = zz - xx;
     return sqrt(0.5 * (a * a + b * b + c * c) + 3 * (yz * yz + xz * xz + xy * xy));
 }
 
 /* Determinant of the 3x3 matrix m[row][column]. */
-static inline double tensor_determinant(double m[3][3])
+THREADS_INLINE double tensor_determinant(double m[3][3])
 {
     return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
          - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])

@@ -25,4 +25,7 @@ double threads_clock(void);
 #define THREADS_VECTORISED
 #endif
 
+/* Helpers of hot loops have to be compiled as part of the clone that calls them. */
+#define THREADS_INLINE static inline __attribute__((always_inline))
+
 #endif

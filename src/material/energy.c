@@ -4,7 +4,7 @@
 #include "material/law.h"
 
 /* Six-term product of stress and strain increment. */
-static inline double stress_work(const struct law_batch *batch, int j)
+THREADS_INLINE double stress_work(const struct law_batch *batch, int j)
 {
     return batch->stress[0][j] * batch->strain[0][j] + batch->stress[1][j] * batch->strain[1][j]
          + batch->stress[2][j] * batch->strain[2][j] + batch->stress[3][j] * batch->strain[3][j]

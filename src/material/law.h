@@ -5,6 +5,7 @@
 #ifndef MATERIAL_LAW_H
 #define MATERIAL_LAW_H
 
+#include "base/threads.h"
 #include "base/argument.h"
 #include "particles/columns.h"
 
@@ -87,7 +88,7 @@ void law_energy_before(const struct law_batch *batch);
 void law_energy_after(const struct law_batch *batch);
 
 /* The elastic trial stress: rotated old stress plus Hooke's increment of one point. */
-static inline void law_elastic_trial(const struct law_batch *batch, int j, double shear, double bulk, double trial[6])
+THREADS_INLINE void law_elastic_trial(const struct law_batch *batch, int j, double shear, double bulk, double trial[6])
 {
     double third = batch->trace[j] / 3;
     double pressure = bulk * batch->trace[j];

@@ -3,11 +3,12 @@
 #ifndef MATERIAL_PLASTIC_H
 #define MATERIAL_PLASTIC_H
 
+#include "base/threads.h"
 #include "base/tensor.h"
 #include "material/law.h"
 
 /* Writes trial stress with the deviator scaled by `scale` about the mean (1 leaves it). */
-static inline void plastic_store(const struct law_batch *batch, int j, const double trial[6], double scale)
+THREADS_INLINE void plastic_store(const struct law_batch *batch, int j, const double trial[6], double scale)
 {
     double mean = tensor_mean(trial);
     for (int a = 0; a < 3; a++) {
@@ -16,7 +17,7 @@ static inline void plastic_store(const struct law_batch *batch, int j, const dou
     }
 }
 
-static inline double plastic_von_mises(const double s[6])
+THREADS_INLINE double plastic_von_mises(const double s[6])
 {
     return tensor_von_mises(s[0], s[1], s[2], s[3], s[4], s[5]);
 }

@@ -26,7 +26,7 @@ void law_rotate_explicit(const struct law_batch *batch)
 
 /* R = 1 + (W + W W / 2) / (1 + w.w / 4), the closed form of (1 - W/2)^-1 (1 + W/2) for the
  * skew W with axial vector w. */
-static inline void hughes_winget(double w1, double w2, double w3, double r[3][3])
+THREADS_INLINE void hughes_winget(double w1, double w2, double w3, double r[3][3])
 {
     double scale = 1 / (1 + 0.25 * (w1 * w1 + w2 * w2 + w3 * w3));
     double half = 0.5 * scale;

@@ -4,6 +4,7 @@
 #ifndef MPM_CHUNK_H
 #define MPM_CHUNK_H
 
+#include "base/threads.h"
 #include "mpm/mpm.h"
 
 enum {
@@ -36,7 +37,7 @@ struct chunk {
 };
 
 /* The next portion of a block; false after the last. Start with .count = 0. */
-static inline bool chunk_next(const struct mpm *mpm, struct chunk *chunk)
+THREADS_INLINE bool chunk_next(const struct mpm *mpm, struct chunk *chunk)
 {
     int32_t from = chunk->from + chunk->count;
     int32_t left = chunk->block->count - from;
@@ -53,7 +54,7 @@ static inline bool chunk_next(const struct mpm *mpm, struct chunk *chunk)
 }
 
 /* A column component of the portion: in place, or copied to `copy`. */
-static inline double *chunk_read(const struct chunk *chunk, double *column, double *copy)
+THREADS_INLINE double *chunk_read(const struct chunk *chunk, double *column, double *copy)
 {
     if (chunk->is_one_piece)
         return column + chunk->order[0];
@@ -63,7 +64,7 @@ static inline double *chunk_read(const struct chunk *chunk, double *column, doub
 }
 
 /* Puts a changed copy back. */
-static inline void chunk_write(const struct chunk *chunk, double *column, const double *copy)
+THREADS_INLINE void chunk_write(const struct chunk *chunk, double *column, const double *copy)
 {
     if (chunk->is_one_piece)
         return;
@@ -72,7 +73,7 @@ static inline void chunk_write(const struct chunk *chunk, double *column, const 
 }
 
 /* Low corner of a cell of the chunk's block, along axis a. */
-static inline double chunk_cell_low(const struct mpm *mpm, const struct chunk *chunk, int cell, int a)
+THREADS_INLINE double chunk_cell_low(const struct mpm *mpm, const struct chunk *chunk, int cell, int a)
 {
     const struct cell_frame *frame = &mpm->cells->frame;
     int in_block = (cell >> (2 * a)) & (BLOCK_EDGE - 1);

@@ -83,43 +83,64 @@ static inline int upper_neighbour(int dx, int dy, int dz)
     return (dx + 1) + 3 * (dy + 1) + 9 * (dz + 1);
 }
 
-void grid_read_patch(const struct grid *grid, int32_t block, int first, int count, double patch[][PATCH_NODES])
+/* A row of five patch nodes: four in one block, the fifth in the block above it in x. */
+struct patch_row {
+    size_t near, far; /* of field 0, in grid.node */
+    int place;        /* in the patch */
+};
+
+/* The rows of a block's patch, without those in blocks that are missing: these lie beyond the
+ * grid's end, and no particle reaches them. Returns the number of rows. */
+static int find_rows(const struct grid *grid, int32_t block, struct patch_row rows[PATCH_EDGE * PATCH_EDGE])
 {
     const int32_t *neighbour = grid->cells->blocks[block].neighbour;
+    int count = 0;
     for (int k = 0; k < PATCH_EDGE; k++)
         for (int j = 0; j < PATCH_EDGE; j++) {
             int dy = j == BLOCK_EDGE, dz = k == BLOCK_EDGE;
-            int row = BLOCK_EDGE * ((j - BLOCK_EDGE * dy) + BLOCK_EDGE * (k - BLOCK_EDGE * dz));
-            int target = PATCH_EDGE * (j + PATCH_EDGE * k);
+            size_t row = (size_t)(BLOCK_EDGE * ((j - BLOCK_EDGE * dy) + BLOCK_EDGE * (k - BLOCK_EDGE * dz)));
             int32_t near = neighbour[upper_neighbour(0, dy, dz)], far = neighbour[upper_neighbour(1, dy, dz)];
-            for (int f = 0; f < count; f++) {
-                const double *source = near >= 0 ? grid_field(grid, near, first + f) + row : NULL;
-                for (int i = 0; i < BLOCK_EDGE; i++)
-                    patch[f][target + i] = source ? source[i] : 0;
-                patch[f][target + BLOCK_EDGE] = far >= 0 ? grid_field(grid, far, first + f)[row] : 0;
-            }
+            if (near < 0)
+                continue;
+            size_t stride = (size_t)NODE_FIELDS * BLOCK_CELLS;
+            rows[count++] = (struct patch_row){(size_t)near * stride + row,
+                                               far < 0 ? SIZE_MAX : (size_t)far * stride + row,
+                                               PATCH_EDGE * (j + PATCH_EDGE * k)};
         }
+    return count;
 }
 
+THREADS_VECTORISED
+void grid_read_patch(const struct grid *grid, int32_t block, int first, int count, double patch[][PATCH_NODES])
+{
+    struct patch_row rows[PATCH_EDGE * PATCH_EDGE];
+    int n_rows = find_rows(grid, block, rows);
+    for (int f = 0; f < count; f++) {
+        const double *node = grid->node + (size_t)(first + f) * BLOCK_CELLS;
+        for (int r = 0; r < n_rows; r++) {
+            double *target = patch[f] + rows[r].place;
+            for (int i = 0; i < BLOCK_EDGE; i++)
+                target[i] = node[rows[r].near + (size_t)i];
+            target[BLOCK_EDGE] = rows[r].far == SIZE_MAX ? 0 : node[rows[r].far];
+        }
+    }
+}
+
+THREADS_VECTORISED
 void grid_add_patch(struct grid *grid, int32_t block, int first, int count, double patch[][PATCH_NODES])
 {
-    const int32_t *neighbour = grid->cells->blocks[block].neighbour;
-    for (int k = 0; k < PATCH_EDGE; k++)
-        for (int j = 0; j < PATCH_EDGE; j++) {
-            int dy = j == BLOCK_EDGE, dz = k == BLOCK_EDGE;
-            int row = BLOCK_EDGE * ((j - BLOCK_EDGE * dy) + BLOCK_EDGE * (k - BLOCK_EDGE * dz));
-            int source = PATCH_EDGE * (j + PATCH_EDGE * k);
-            int32_t near = neighbour[upper_neighbour(0, dy, dz)], far = neighbour[upper_neighbour(1, dy, dz)];
-            for (int f = 0; f < count; f++) {
-                if (near >= 0) {
-                    double *target = grid_field(grid, near, first + f) + row;
-                    for (int i = 0; i < BLOCK_EDGE; i++)
-                        target[i] += patch[f][source + i];
-                }
-                if (far >= 0)
-                    grid_field(grid, far, first + f)[row] += patch[f][source + BLOCK_EDGE];
-            }
+    struct patch_row rows[PATCH_EDGE * PATCH_EDGE];
+    int n_rows = find_rows(grid, block, rows);
+    for (int f = 0; f < count; f++) {
+        double *node = grid->node + (size_t)(first + f) * BLOCK_CELLS;
+        for (int r = 0; r < n_rows; r++) {
+            const double *source = patch[f] + rows[r].place;
+            for (int i = 0; i < BLOCK_EDGE; i++)
+                node[rows[r].near + (size_t)i] += source[i];
+            if (rows[r].far != SIZE_MAX)
+                node[rows[r].far] += source[BLOCK_EDGE];
         }
+    }
 }
 
 THREADS_VECTORISED

@@ -3,6 +3,7 @@
 #ifndef MPM_GRID_H
 #define MPM_GRID_H
 
+#include "base/threads.h"
 #include "particles/cell_list.h"
 
 /* What a node holds in the course of a step. */
@@ -36,7 +37,7 @@ void grid_close(struct grid *grid);
 void grid_follow(struct grid *grid);
 
 /* The 64 values of a field in a block. */
-static inline double *grid_field(const struct grid *grid, int32_t block, int field)
+THREADS_INLINE double *grid_field(const struct grid *grid, int32_t block, int field)
 {
     return grid->node + ((size_t)block * NODE_FIELDS + (size_t)field) * BLOCK_CELLS;
 }
@@ -51,7 +52,7 @@ void grid_read_patch(const struct grid *grid, int32_t block, int first, int coun
 void grid_add_patch(struct grid *grid, int32_t block, int first, int count, double patch[][PATCH_NODES]);
 
 /* Place in a patch of the low corner of cell c of the block. */
-static inline int grid_patch_corner(int c)
+THREADS_INLINE int grid_patch_corner(int c)
 {
     return c % BLOCK_EDGE + PATCH_EDGE * (c / BLOCK_EDGE % BLOCK_EDGE) + PATCH_EDGE * PATCH_EDGE * (c / (BLOCK_EDGE * BLOCK_EDGE));
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Trilinear shape functions (spec 7.1): the passes between particles and grid.
- * Scatter runs over the eight nodes of a cell at once, one particle after the other, so that the
+ * Scatter runs over the nodes of a cell at once, one particle after the other, so that the
  * order of the sums is the order of the particles. Gather runs over particles of a cell at once,
  * with the cell's field as a polynomial whose eight coefficients are formed once a cell. */
 #include "base/threads.h"
@@ -8,47 +8,57 @@
 
 #include <string.h>
 
-enum { CORNERS = 8 };
+/* Four nodes of a cell's lower or upper face, in the order (0,0) (1,0) (0,1) (1,1) of x and y; a
+ * cell's eight nodes are a pair of them. */
+enum { FACE_NODES = 4, LOWER = 0, UPPER = 1, FACES = 2 };
 
-typedef double corners __attribute__((vector_size(CORNERS * sizeof(double))));
+typedef lanes face;
 
-static const int corner_offset[CORNERS] = {
-    0, 1, PATCH_EDGE, PATCH_EDGE + 1, PATCH_EDGE * PATCH_EDGE, PATCH_EDGE * PATCH_EDGE + 1,
-    PATCH_EDGE * PATCH_EDGE + PATCH_EDGE, PATCH_EDGE * PATCH_EDGE + PATCH_EDGE + 1};
+static const int corner_offset[FACES][FACE_NODES] = {
+    {0, 1, PATCH_EDGE, PATCH_EDGE + 1},
+    {PATCH_EDGE * PATCH_EDGE, PATCH_EDGE * PATCH_EDGE + 1, PATCH_EDGE * PATCH_EDGE + PATCH_EDGE,
+     PATCH_EDGE * PATCH_EDGE + PATCH_EDGE + 1}};
 
-/* Sign of the corner along an axis, and 1 at the low corners: N = product of low + sign * f. */
-static const corners sign[3] = {{-1, 1, -1, 1, -1, 1, -1, 1}, {-1, -1, 1, 1, -1, -1, 1, 1}, {-1, -1, -1, -1, 1, 1, 1, 1}};
-static const corners low[3] = {{1, 0, 1, 0, 1, 0, 1, 0}, {1, 1, 0, 0, 1, 1, 0, 0}, {1, 1, 1, 1, 0, 0, 0, 0}};
+/* Along x and y a node's weight is low + sign * local coordinate. */
+static const face sign_x = {-1, 1, -1, 1}, sign_y = {-1, -1, 1, 1}, low_x = {1, 0, 1, 0}, low_y = {1, 1, 0, 0};
 
 /* --- particles to grid (thesis steps 1 and 4) --- */
 
-/* Adds what a cell's corners got to the patch. */
-static inline void add_corners(double patch[][PATCH_NODES], int base, const corners *sum, int count)
+/* Adds what a cell's nodes got to the patch. */
+THREADS_INLINE void add_corners(double patch[][PATCH_NODES], int base, face sum[][FACES], int count)
 {
     for (int f = 0; f < count; f++)
-        for (int i = 0; i < CORNERS; i++)
-            patch[f][base + corner_offset[i]] += sum[f][i];
+        for (int half = 0; half < FACES; half++)
+            for (int i = 0; i < FACE_NODES; i++)
+                patch[f][base + corner_offset[half][i]] += sum[f][half][i];
 }
 
 /* Mass, momentum and force of one cell's particles. `sum` holds mass, momentum, force. */
-static inline __attribute__((always_inline)) void scatter_cell(const struct mpm *mpm, const int32_t *order, int32_t count,
-                                                               const double cell_low[3], corners sum[7], bool momentum,
-                                                               bool force, bool external)
+THREADS_INLINE void scatter_cell(const struct mpm *mpm, const int32_t *order, int32_t count, const double cell_low[3],
+                                 face sum[7][FACES], bool momentum, bool force, bool external)
 {
     const struct store *store = mpm->store;
     const double inverse = 1 / mpm->cells->frame.size;
     for (int32_t k = 0; k < count; k++) {
         size_t p = (size_t)order[k];
-        corners w[3];
-        for (int a = 0; a < 3; a++)
-            w[a] = low[a] + sign[a] * ((store->real[COLUMN_POSITION][a][p] - cell_low[a]) * inverse);
-        corners yz = w[1] * w[2];
-        corners n = w[0] * yz;
-        double mass = store->real[COLUMN_MASS][0][p];
+        double x = (store->real[COLUMN_POSITION][0][p] - cell_low[0]) * inverse;
+        double y = (store->real[COLUMN_POSITION][1][p] - cell_low[1]) * inverse;
+        double upper = (store->real[COLUMN_POSITION][2][p] - cell_low[2]) * inverse, lower = 1 - upper;
+        face weight_x = low_x + sign_x * x, weight_y = low_y + sign_y * y;
+        face flat = weight_x * weight_y;
+        face n_lower = flat * lower, n_upper = flat * upper;
         if (momentum) {
-            sum[0] += n * mass;
-            for (int a = 0; a < 3; a++)
-                sum[1 + a] += n * (mass * store->real[COLUMN_VELOCITY][a][p]);
+            double mass = store->real[COLUMN_MASS][0][p];
+            double px = mass * store->real[COLUMN_VELOCITY][0][p], py = mass * store->real[COLUMN_VELOCITY][1][p],
+                   pz = mass * store->real[COLUMN_VELOCITY][2][p];
+            sum[0][LOWER] += n_lower * mass;
+            sum[0][UPPER] += n_upper * mass;
+            sum[1][LOWER] += n_lower * px;
+            sum[1][UPPER] += n_upper * px;
+            sum[2][LOWER] += n_lower * py;
+            sum[2][UPPER] += n_upper * py;
+            sum[3][LOWER] += n_lower * pz;
+            sum[3][UPPER] += n_upper * pz;
         }
         if (force) {
             double volume = -store->real[COLUMN_VOLUME][0][p] * inverse;
@@ -56,24 +66,32 @@ static inline __attribute__((always_inline)) void scatter_cell(const struct mpm 
             double xx = volume * (store->real[COLUMN_STRESS][0][p] - viscous);
             double yy = volume * (store->real[COLUMN_STRESS][1][p] - viscous);
             double zz = volume * (store->real[COLUMN_STRESS][2][p] - viscous);
-            double yz_stress = volume * store->real[COLUMN_STRESS][3][p];
-            double xz_stress = volume * store->real[COLUMN_STRESS][4][p];
-            double xy_stress = volume * store->real[COLUMN_STRESS][5][p];
-            corners gx = sign[0] * yz, gy = sign[1] * (w[0] * w[2]), gz = sign[2] * (w[0] * w[1]);
-            sum[4] += gx * xx + gy * xy_stress + gz * xz_stress;
-            sum[5] += gx * xy_stress + gy * yy + gz * yz_stress;
-            sum[6] += gx * xz_stress + gy * yz_stress + gz * zz;
+            double yz = volume * store->real[COLUMN_STRESS][3][p];
+            double xz = volume * store->real[COLUMN_STRESS][4][p];
+            double xy = volume * store->real[COLUMN_STRESS][5][p];
+            face slope_x = sign_x * weight_y, slope_y = sign_y * weight_x;
+            face along_x = slope_x * xx + slope_y * xy, across_x = flat * xz;
+            face along_y = slope_x * xy + slope_y * yy, across_y = flat * yz;
+            face along_z = slope_x * xz + slope_y * yz, across_z = flat * zz;
+            sum[4][LOWER] += along_x * lower - across_x;
+            sum[4][UPPER] += along_x * upper + across_x;
+            sum[5][LOWER] += along_y * lower - across_y;
+            sum[5][UPPER] += along_y * upper + across_y;
+            sum[6][LOWER] += along_z * lower - across_z;
+            sum[6][UPPER] += along_z * upper + across_z;
             if (external) {
                 double f[3];
                 mpm_external_force(mpm, p, f);
-                for (int a = 0; a < 3; a++)
-                    sum[4 + a] += n * f[a];
+                for (int a = 0; a < 3; a++) {
+                    sum[4 + a][LOWER] += n_lower * f[a];
+                    sum[4 + a][UPPER] += n_upper * f[a];
+                }
             }
         }
     }
 }
 
-static inline __attribute__((always_inline)) void scatter_block(struct mpm *mpm, int32_t b, bool momentum, bool force,
+THREADS_INLINE void scatter_block(struct mpm *mpm, int32_t b, bool momentum, bool force,
                                                                 bool external)
 {
     const struct cell_block *block = &mpm->cells->blocks[b];
@@ -85,7 +103,7 @@ static inline __attribute__((always_inline)) void scatter_block(struct mpm *mpm,
         int32_t from = block->cell_first[c], count = block->cell_first[c + 1] - from;
         if (count == 0)
             continue;
-        corners sum[7] = {{0}, {0}, {0}, {0}, {0}, {0}, {0}};
+        face sum[7][FACES] = {{{0}}};
         double cell_low[3];
         for (int a = 0; a < 3; a++)
             cell_low[a] = chunk_cell_low(mpm, &chunk, c, a);
@@ -138,11 +156,11 @@ struct polynomial {
     double one, x, y, z, xy, xz, yz, xyz;
 };
 
-static inline struct polynomial polynomial_of(const double *field, int base)
+THREADS_INLINE struct polynomial polynomial_of(const double *field, int base)
 {
-    const double *v = field + base;
-    double v0 = v[corner_offset[0]], v1 = v[corner_offset[1]], v2 = v[corner_offset[2]], v3 = v[corner_offset[3]];
-    double v4 = v[corner_offset[4]], v5 = v[corner_offset[5]], v6 = v[corner_offset[6]], v7 = v[corner_offset[7]];
+    const double *v = field + base, *w = v + PATCH_EDGE * PATCH_EDGE;
+    double v0 = v[0], v1 = v[1], v2 = v[PATCH_EDGE], v3 = v[PATCH_EDGE + 1];
+    double v4 = w[0], v5 = w[1], v6 = w[PATCH_EDGE], v7 = w[PATCH_EDGE + 1];
     struct polynomial c = {.one = v0, .x = v1 - v0, .y = v2 - v0, .z = v4 - v0};
     double upper_x = v5 - v4;
     c.xy = (v3 - v2) - c.x;
@@ -158,7 +176,7 @@ struct cell_walk {
     int32_t from, to;
 };
 
-static inline bool walk_next(const struct chunk *chunk, struct cell_walk *walk)
+THREADS_INLINE bool walk_next(const struct chunk *chunk, struct cell_walk *walk)
 {
     const int32_t *first = chunk->block->cell_first;
     int32_t end = chunk->from + chunk->count;
@@ -172,7 +190,7 @@ static inline bool walk_next(const struct chunk *chunk, struct cell_walk *walk)
 }
 
 /* Positions of the chunk's particles in their cells, 0 ... 1, into workspace.local. */
-static inline void find_local(const struct mpm *mpm, const struct chunk *chunk, double *const position[3])
+THREADS_INLINE void find_local(const struct mpm *mpm, const struct chunk *chunk, double *const position[3])
 {
     const double inverse = 1 / mpm->cells->frame.size;
     for (struct cell_walk walk = {0}; walk_next(chunk, &walk);)
@@ -185,7 +203,7 @@ static inline void find_local(const struct mpm *mpm, const struct chunk *chunk, 
 }
 
 /* Evaluates three fields of the patch at the chunk's particles, into workspace.gathered. */
-static inline void gather_values(const struct chunk *chunk, double patch[][PATCH_NODES])
+THREADS_INLINE void gather_values(const struct chunk *chunk, double patch[][PATCH_NODES])
 {
     struct workspace *w = chunk->workspace;
     for (struct cell_walk walk = {0}; walk_next(chunk, &walk);)
@@ -200,7 +218,7 @@ static inline void gather_values(const struct chunk *chunk, double patch[][PATCH
 }
 
 /* Strain and spin increments and their trace (spec 6.2) from the straining velocities of the patch. */
-static inline void gather_gradient(const struct chunk *chunk, double patch[][PATCH_NODES], double scale)
+THREADS_INLINE void gather_gradient(const struct chunk *chunk, double patch[][PATCH_NODES], double scale)
 {
     struct workspace *w = chunk->workspace;
     for (struct cell_walk walk = {0}; walk_next(chunk, &walk);) {
@@ -235,17 +253,23 @@ static inline void gather_gradient(const struct chunk *chunk, double patch[][PAT
 /* --- particle velocity (thesis steps 6 and 7) --- */
 
 /* Adds momentum of the new velocities of the chunk to the straining field. */
-static inline __attribute__((always_inline)) void scatter_new_momentum(const struct chunk *chunk, double *const velocity[3],
+THREADS_INLINE void scatter_new_momentum(const struct chunk *chunk, double *const velocity[3],
                                                                        const double *mass, double patch[][PATCH_NODES])
 {
     const struct workspace *w = chunk->workspace;
     for (struct cell_walk walk = {0}; walk_next(chunk, &walk);) {
-        corners sum[3] = {{0}, {0}, {0}};
+        face sum[3][FACES] = {{{0}}};
         for (int32_t j = walk.from; j < walk.to; j++) {
-            corners n = (low[0] + sign[0] * w->local[0][j])
-                      * ((low[1] + sign[1] * w->local[1][j]) * (low[2] + sign[2] * w->local[2][j]));
-            for (int a = 0; a < 3; a++)
-                sum[a] += n * (mass[j] * velocity[a][j]);
+            double upper = w->local[2][j], lower = 1 - upper;
+            face flat = (low_x + sign_x * w->local[0][j]) * (low_y + sign_y * w->local[1][j]);
+            face n_lower = flat * lower, n_upper = flat * upper;
+            double px = mass[j] * velocity[0][j], py = mass[j] * velocity[1][j], pz = mass[j] * velocity[2][j];
+            sum[0][LOWER] += n_lower * px;
+            sum[0][UPPER] += n_upper * px;
+            sum[1][LOWER] += n_lower * py;
+            sum[1][UPPER] += n_upper * py;
+            sum[2][LOWER] += n_lower * pz;
+            sum[2][UPPER] += n_upper * pz;
         }
         add_corners(patch, grid_patch_corner(walk.cell), sum, 3);
     }
@@ -254,7 +278,7 @@ static inline __attribute__((always_inline)) void scatter_new_momentum(const str
 /* The three patches that a block's velocity pass works with. */
 enum { PATCH_VELOCITY = 0, PATCH_ACCELERATION = 3, PATCH_STRAINING = 6 };
 
-static inline __attribute__((always_inline)) void velocity_chunk(struct mpm *mpm, struct chunk *chunk, bool moves,
+THREADS_INLINE void velocity_chunk(struct mpm *mpm, struct chunk *chunk, bool moves,
                                                                  bool remaps, bool external)
 {
     struct store *store = mpm->store;
@@ -280,7 +304,7 @@ static inline __attribute__((always_inline)) void velocity_chunk(struct mpm *mpm
     }
 }
 
-static inline __attribute__((always_inline)) void velocity_block(struct mpm *mpm, int32_t b, bool moves, bool remaps,
+THREADS_INLINE void velocity_block(struct mpm *mpm, int32_t b, bool moves, bool remaps,
                                                                  bool external)
 {
     struct workspace *w = &mpm->workspaces[threads_self()];
@@ -332,7 +356,7 @@ static void gather_velocity(struct mpm *mpm, int32_t b)
 
 /* --- strain and stress (thesis steps 3, 8 and 9) --- */
 
-static inline __attribute__((always_inline)) void strain_block(struct mpm *mpm, int32_t b, bool moves)
+THREADS_INLINE void strain_block(struct mpm *mpm, int32_t b, bool moves)
 {
     struct workspace *w = &mpm->workspaces[threads_self()];
     struct chunk chunk = {.block = &mpm->cells->blocks[b], .block_index = b, .workspace = w};

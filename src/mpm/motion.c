@@ -21,7 +21,7 @@ void motion_work(struct mpm *mpm, const struct chunk *chunk)
 
 /* Adds the chunk's kinetic energy, momentum and largest velocity to the block's sums. Four
  * partial sums, so that the result does not depend on how wide the processor's vectors are. */
-static inline __attribute__((always_inline)) void sum_motion(struct sums *sums, int32_t count, double *const velocity[3],
+THREADS_INLINE void sum_motion(struct sums *sums, int32_t count, double *const velocity[3],
                                                              const double *mass)
 {
     lanes kinetic = {0}, px = {0}, py = {0}, pz = {0};
@@ -69,7 +69,7 @@ void motion_accelerate(struct mpm *mpm, const struct chunk *chunk, double *const
 }
 
 /* Cells of the chunk's new positions, counted from the block's corner, into workspace.cell. */
-static inline __attribute__((always_inline)) void find_cells(const struct mpm *mpm, const struct chunk *chunk,
+THREADS_INLINE void find_cells(const struct mpm *mpm, const struct chunk *chunk,
                                                              double *const position[3])
 {
     const struct cell_frame *frame = &mpm->cells->frame;

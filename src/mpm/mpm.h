@@ -3,6 +3,7 @@
 #ifndef MPM_MPM_H
 #define MPM_MPM_H
 
+#include "base/threads.h"
 #include "base/timers.h"
 #include "deck/scene.h"
 #include "mpm/grid.h"
@@ -107,7 +108,7 @@ void mpm_each_block(struct mpm *mpm, block_pass *pass);
 void mpm_each_block_coloured(struct mpm *mpm, block_pass *pass);
 
 /* Force per particle besides stress (spec 6 C): load, gravity, damping. */
-static inline void mpm_external_force(const struct mpm *mpm, size_t p, double force[3])
+THREADS_INLINE void mpm_external_force(const struct mpm *mpm, size_t p, double force[3])
 {
     const struct store *store = mpm->store;
     const double *gravity = mpm->bodies[store->integer[COLUMN_BODY][p]].gravity;
