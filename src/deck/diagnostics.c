@@ -42,6 +42,17 @@ void diagnostics_close(struct diagnostics *diagnostics)
     memory_free(diagnostics);
 }
 
+static bool is_control(char c)
+{
+    return (unsigned char)c < 32 || c == 127;
+}
+
+/* Whether a byte continues a UTF-8 character, so that it takes no place on the screen. */
+static bool is_continuation(char c)
+{
+    return ((unsigned char)c & 0xC0) == 0x80;
+}
+
 static void add(struct diagnostics *diagnostics, struct deck_place place, bool is_error,
                 const char *format, va_list arguments)
 {
@@ -55,6 +66,9 @@ static void add(struct diagnostics *diagnostics, struct deck_place place, bool i
         return;
     char text[1024];
     vsnprintf(text, sizeof text, format, arguments);
+    for (char *c = text; *c; c++) /* words of the deck must not reach a terminal as control sequences */
+        if (is_control(*c))
+            *c = '?';
     diagnostics->notes = memory_grow(diagnostics->notes, &diagnostics->capacity, diagnostics->count + 1,
                                      sizeof *diagnostics->notes, "messages");
     diagnostics->notes[diagnostics->count] =
@@ -101,12 +115,16 @@ static void print_line(const struct deck_file *file, struct deck_place place, FI
         start--;
     while (end < file->size && file->text[end] != '\n' && end - start < SHOWN_WIDTH)
         end++;
+    while (start < place.offset && is_continuation(file->text[start]))
+        start++;
+    int before = 0;
     fputs("    ", stream);
     for (size_t i = start; i < end; i++) {
-        unsigned char c = (unsigned char)file->text[i];
-        fputc(c == '\t' || c == '\r' ? ' ' : c < 32 || c == 127 ? '?' : c, stream);
+        char c = file->text[i];
+        before += i < place.offset && !is_continuation(c);
+        fputc(c == '\t' || c == '\r' ? ' ' : is_control(c) ? '?' : c, stream);
     }
-    fprintf(stream, "\n    %*s^\n", (int)(place.offset - start), "");
+    fprintf(stream, "\n    %*s^\n", before, "");
 }
 
 static void print_note(const struct note *note, const struct deck_text *text, FILE *stream, bool colour)

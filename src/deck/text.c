@@ -15,6 +15,7 @@ struct cursor {
     long line;
     bool after_comma; /* a comma was passed since the last word of this line */
     bool line_begins; /* no word taken from this line yet */
+    bool is_silent;   /* looking ahead: mistakes are reported when the words are taken */
 };
 
 struct deck_text {
@@ -25,6 +26,8 @@ struct deck_text {
     size_t depth, stack_capacity;
     struct deck_word peeked;
     bool has_peeked;
+    bool refuses_includes;
+    bool is_cut; /* a file ended at a NUL byte */
 };
 
 struct deck_text *text_open(struct diagnostics *diagnostics)
@@ -68,6 +71,8 @@ static int read_all(FILE *stream, char **bytes, size_t *size)
 int text_include_file(struct deck_text *text, const char *path)
 {
     bool standard = strcmp(path, "-") == 0;
+    if (text->refuses_includes)
+        return EPERM;
     errno = 0;
     FILE *stream = standard ? stdin : fopen(path, "rb");
     if (!stream)
@@ -85,31 +90,33 @@ int text_include_file(struct deck_text *text, const char *path)
 
 void text_include_memory(struct deck_text *text, const char *name, const char *bytes, size_t size)
 {
+    static const char mark[] = "\xEF\xBB\xBF"; /* that some editors put before UTF-8 */
+    if (size >= 3 && memcmp(bytes, mark, 3) == 0) {
+        bytes += 3;
+        size -= 3;
+    }
     text->files = memory_grow(text->files, &text->files_capacity, text->n_files + 1,
                               sizeof *text->files, "the deck");
     struct deck_file *file = &text->files[text->n_files];
     file->name = memory_text(name, strlen(name));
     file->text = memory_text(bytes, size);
-    file->size = size;
+    const char *nul = memchr(file->text, 0, size);
+    file->size = nul ? (size_t)(nul - file->text) : size;
+    file->has_nul = nul != NULL;
     text->stack = memory_grow(text->stack, &text->stack_capacity, text->depth + 1,
                               sizeof *text->stack, "the deck");
-    struct cursor *cursor = &text->stack[text->depth++];
-    *cursor = (struct cursor){.file = (int)text->n_files, .line = 1, .line_begins = true};
-    if (size >= 3 && memcmp(file->text, "\xEF\xBB\xBF", 3) == 0)
-        cursor->offset = 3;
+    text->stack[text->depth++] = (struct cursor){.file = (int)text->n_files, .line = 1, .line_begins = true};
     text->n_files++;
-    const char *nul = memchr(file->text, 0, size);
-    if (nul) {
-        struct deck_place place = {cursor->file, 1, 1, (size_t)(nul - file->text)};
-        for (const char *p = file->text; p < nul; p++) {
-            place.column++;
-            if (*p == '\n') {
-                place.line++;
-                place.column = 1;
-            }
-        }
-        diagnostics_error(text->diagnostics, place, "NUL byte; a deck is plain text");
-    }
+}
+
+void text_refuse_includes(struct deck_text *text)
+{
+    text->refuses_includes = true;
+}
+
+bool text_is_cut(const struct deck_text *text)
+{
+    return text->is_cut;
 }
 
 static struct deck_place place_of(const struct cursor *cursor)
@@ -137,14 +144,20 @@ static void pass_line_end(struct cursor *cursor)
     cursor->line_begins = true;
 }
 
+/* Passes a comma. Of a run of commas the first that is too many is reported. */
 static void pass_comma(struct deck_text *text, struct cursor *cursor)
 {
-    if (cursor->after_comma || cursor->line_begins)
+    const struct deck_file *file = &text->files[cursor->file];
+    bool is_wrong = cursor->after_comma || cursor->line_begins;
+    if (is_wrong && !cursor->is_silent)
         diagnostics_error(text->diagnostics, place_of(cursor),
                           cursor->after_comma ? "empty word between two commas; expected a word or number"
                                               : "comma before the first word of a line");
     cursor->after_comma = true;
-    cursor->offset++;
+    do
+        cursor->offset++;
+    while (is_wrong && cursor->offset < file->size
+           && (file->text[cursor->offset] == ',' || is_blank(file->text[cursor->offset])));
 }
 
 /* Moves the cursor to the next word of its file; false at the file's end. */
@@ -165,35 +178,51 @@ static bool find_word(struct deck_text *text, struct cursor *cursor)
         else
             return true;
     }
+    if (file->has_nul && !cursor->is_silent) {
+        text->is_cut = true;
+        diagnostics_error(text->diagnostics, place_of(cursor), "NUL byte; a deck is plain text, reading stops here");
+    }
     return false;
+}
+
+/* Moves the cursor behind a quoted word, which may hold anything but a line end. */
+static void pass_quoted(struct deck_text *text, struct cursor *cursor)
+{
+    const struct deck_file *file = &text->files[cursor->file];
+    size_t end = cursor->offset + 1;
+    while (end < file->size && file->text[end] != '"' && file->text[end] != '\n')
+        end++;
+    bool is_closed = end < file->size && file->text[end] == '"';
+    if (!is_closed && !cursor->is_silent)
+        diagnostics_error(text->diagnostics, place_of(cursor), "the quotation mark is not closed on this line");
+    cursor->offset = end + is_closed;
+}
+
+/* The word at the cursor, which moves behind it. */
+static void pass_word(struct deck_text *text, struct cursor *cursor, struct deck_word *word)
+{
+    const struct deck_file *file = &text->files[cursor->file];
+    word->place = place_of(cursor);
+    word->text = file->text + cursor->offset;
+    if (*word->text == '"')
+        pass_quoted(text, cursor);
+    else
+        while (cursor->offset < file->size && !ends_word(file->text[cursor->offset]))
+            cursor->offset++;
+    word->length = (size_t)(file->text + cursor->offset - word->text);
+    cursor->after_comma = false;
+    cursor->line_begins = false;
 }
 
 static bool take_word(struct deck_text *text, struct deck_word *word)
 {
     while (text->depth > 0) {
         struct cursor *cursor = &text->stack[text->depth - 1];
-        if (!find_word(text, cursor)) {
-            text->depth--;
-            continue;
+        if (find_word(text, cursor)) {
+            pass_word(text, cursor, word);
+            return true;
         }
-        const struct deck_file *file = &text->files[cursor->file];
-        word->place = place_of(cursor);
-        word->text = file->text + cursor->offset;
-        if (*word->text == '"') { /* a quoted word may hold anything but a line end */
-            size_t end = cursor->offset + 1;
-            while (end < file->size && file->text[end] != '"' && file->text[end] != '\n')
-                end++;
-            if (end < file->size && file->text[end] == '"')
-                end++;
-            cursor->offset = end;
-        } else {
-            while (cursor->offset < file->size && !ends_word(file->text[cursor->offset]))
-                cursor->offset++;
-        }
-        word->length = (size_t)(file->text + cursor->offset - word->text);
-        cursor->after_comma = false;
-        cursor->line_begins = false;
-        return true;
+        text->depth--;
     }
     return false;
 }
@@ -214,6 +243,27 @@ bool text_peek(struct deck_text *text, struct deck_word *word)
     if (text->has_peeked)
         *word = text->peeked;
     return text->has_peeked;
+}
+
+bool text_after(struct deck_text *text, struct deck_word *word)
+{
+    const struct deck_place *place = &word->place;
+    struct cursor cursor = {.file = place->file, .offset = place->offset + word->length,
+                            .line_start = place->offset - (size_t)(place->column - 1), .line = place->line,
+                            .is_silent = true};
+    if (!find_word(text, &cursor))
+        return false;
+    pass_word(text, &cursor, word);
+    return true;
+}
+
+bool text_second(struct deck_text *text, struct deck_word *word)
+{
+    long line;
+    if (!text_peek(text, word))
+        return false;
+    line = word->place.line;
+    return text_after(text, word) && word->place.line == line;
 }
 
 char *text_rest_of_line(struct deck_text *text, const struct deck_word *from)
@@ -249,6 +299,11 @@ bool text_is_open(const struct deck_text *text, const char *path)
     return false;
 }
 
+int text_depth(const struct deck_text *text)
+{
+    return (int)text->depth;
+}
+
 int text_file_count(const struct deck_text *text)
 {
     return (int)text->n_files;
@@ -265,6 +320,18 @@ struct deck_place text_behind(const struct deck_word *word)
     place.column += (long)word->length;
     place.offset += word->length;
     return place;
+}
+
+char *text_show(const struct deck_word *word, char *buffer, size_t size)
+{
+    text_copy(word, buffer, size);
+    if (word->length < size)
+        return buffer;
+    size_t end = size - 4;
+    while (end > 0 && ((unsigned char)buffer[end] & 0xC0) == 0x80) /* not inside a UTF-8 character */
+        end--;
+    memcpy(buffer + end, "...", 4);
+    return buffer;
 }
 
 char *text_copy(const struct deck_word *word, char *buffer, size_t size)

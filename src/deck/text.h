@@ -25,7 +25,8 @@ struct deck_word {
 struct deck_file {
     char *name;
     char *text;
-    size_t size;
+    size_t size;  /* up to the first NUL byte */
+    bool has_nul; /* the file goes on behind it, but is not read */
 };
 
 struct deck_text; /* the files and the point reached in each */
@@ -42,11 +43,20 @@ int text_include_file(struct deck_text *text, const char *path);
 /* The same with `size` bytes of memory, copied, under a name for messages. */
 void text_include_memory(struct deck_text *text, const char *name, const char *bytes, size_t size);
 
+/* Makes text_include_file fail with EPERM: what is read from memory stays there. */
+void text_refuse_includes(struct deck_text *text);
+
 /* The next word, or false at the end of the last file. */
 bool text_next(struct deck_text *text, struct deck_word *word);
 
 /* The next word without taking it. */
 bool text_peek(struct deck_text *text, struct deck_word *word);
+
+/* Replaces a word by the one after it in its file, without taking any; false at the file's end. */
+bool text_after(struct deck_text *text, struct deck_word *word);
+
+/* The word after the next one where both stand on one line; takes none. */
+bool text_second(struct deck_text *text, struct deck_word *word);
 
 /* The rest of the line that ends the last word taken, without comment, with runs of blanks
  * squeezed; takes it. The caller frees it with memory_free. */
@@ -55,11 +65,19 @@ char *text_rest_of_line(struct deck_text *text, const struct deck_word *from);
 /* Whether this file is being read already (an include that includes itself). */
 bool text_is_open(const struct deck_text *text, const char *path);
 
+/* Whether a file ended at a NUL byte, which was reported. */
+bool text_is_cut(const struct deck_text *text);
+
+/* Files being read now: 1 in the deck itself, more inside includes. */
+int text_depth(const struct deck_text *text);
 int text_file_count(const struct deck_text *text);
 const struct deck_file *text_file(const struct deck_text *text, int file);
 
 /* The place just behind a word. */
 struct deck_place text_behind(const struct deck_word *word);
+
+/* The same for messages: where the word does not fit, "..." ends it. */
+char *text_show(const struct deck_word *word, char *buffer, size_t size);
 
 /* Copies the word, cut to fit `size`, as a C string. Returns buffer. */
 char *text_copy(const struct deck_word *word, char *buffer, size_t size);

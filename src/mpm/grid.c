@@ -83,6 +83,9 @@ static inline int upper_neighbour(int dx, int dy, int dz)
     return (dx + 1) + 3 * (dy + 1) + 9 * (dz + 1);
 }
 
+/* The nodes of a row in one block. */
+typedef double four __attribute__((vector_size(BLOCK_EDGE * sizeof(double)), aligned(sizeof(double)), may_alias));
+
 /* A row of five patch nodes: four in one block, the fifth in the block above it in x. */
 struct patch_row {
     size_t near, far; /* of field 0, in grid.node */
@@ -119,8 +122,7 @@ void grid_read_patch(const struct grid *grid, int32_t block, int first, int coun
         const double *node = grid->node + (size_t)(first + f) * BLOCK_CELLS;
         for (int r = 0; r < n_rows; r++) {
             double *target = patch[f] + rows[r].place;
-            for (int i = 0; i < BLOCK_EDGE; i++)
-                target[i] = node[rows[r].near + (size_t)i];
+            *(four *)target = *(const four *)(node + rows[r].near);
             target[BLOCK_EDGE] = rows[r].far == SIZE_MAX ? 0 : node[rows[r].far];
         }
     }
@@ -135,8 +137,7 @@ void grid_add_patch(struct grid *grid, int32_t block, int first, int count, doub
         double *node = grid->node + (size_t)(first + f) * BLOCK_CELLS;
         for (int r = 0; r < n_rows; r++) {
             const double *source = patch[f] + rows[r].place;
-            for (int i = 0; i < BLOCK_EDGE; i++)
-                node[rows[r].near + (size_t)i] += source[i];
+            *(four *)(node + rows[r].near) += *(const four *)source;
             if (rows[r].far != SIZE_MAX)
                 node[rows[r].far] += source[BLOCK_EDGE];
         }

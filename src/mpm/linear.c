@@ -91,6 +91,25 @@ THREADS_INLINE void scatter_cell(const struct mpm *mpm, const int32_t *order, in
     }
 }
 
+/* Asks for the particles that follow in memory: a cell's pass is too short for the processor to
+ * see that the columns are read in order. */
+THREADS_INLINE void prefetch_particles(const struct store *store, int32_t p, bool momentum, bool force)
+{
+    enum { AHEAD = 24 };
+    for (int a = 0; a < 3; a++) {
+        __builtin_prefetch(store->real[COLUMN_POSITION][a] + p + AHEAD);
+        if (momentum)
+            __builtin_prefetch(store->real[COLUMN_VELOCITY][a] + p + AHEAD);
+    }
+    __builtin_prefetch(store->real[COLUMN_MASS][0] + p + AHEAD);
+    for (int a = 0; a < 6 && force; a++)
+        __builtin_prefetch(store->real[COLUMN_STRESS][a] + p + AHEAD);
+    if (force) {
+        __builtin_prefetch(store->real[COLUMN_VOLUME][0] + p + AHEAD);
+        __builtin_prefetch(store->real[COLUMN_VISCOUS_PRESSURE][0] + p + AHEAD);
+    }
+}
+
 THREADS_INLINE void scatter_block(struct mpm *mpm, int32_t b, bool momentum, bool force,
                                                                 bool external)
 {
@@ -103,10 +122,13 @@ THREADS_INLINE void scatter_block(struct mpm *mpm, int32_t b, bool momentum, boo
         int32_t from = block->cell_first[c], count = block->cell_first[c + 1] - from;
         if (count == 0)
             continue;
-        face sum[7][FACES] = {{{0}}};
+        face sum[7][FACES];
         double cell_low[3];
+        for (int f = 0; f < 7; f++)
+            sum[f][LOWER] = sum[f][UPPER] = (face){0};
         for (int a = 0; a < 3; a++)
             cell_low[a] = chunk_cell_low(mpm, &chunk, c, a);
+        prefetch_particles(mpm->store, mpm->cells->order[block->first + from], momentum, force);
         scatter_cell(mpm, mpm->cells->order + block->first + from, count, cell_low, sum, momentum, force, external);
         add_corners(workspace->patch, grid_patch_corner(c), momentum ? sum : sum + 4, fields);
     }
@@ -258,7 +280,9 @@ THREADS_INLINE void scatter_new_momentum(const struct chunk *chunk, double *cons
 {
     const struct workspace *w = chunk->workspace;
     for (struct cell_walk walk = {0}; walk_next(chunk, &walk);) {
-        face sum[3][FACES] = {{{0}}};
+        face sum[3][FACES];
+        for (int f = 0; f < 3; f++)
+            sum[f][LOWER] = sum[f][UPPER] = (face){0};
         for (int32_t j = walk.from; j < walk.to; j++) {
             double upper = w->local[2][j], lower = 1 - upper;
             face flat = (low_x + sign_x * w->local[0][j]) * (low_y + sign_y * w->local[1][j]);
