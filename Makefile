@@ -34,21 +34,25 @@ mpm3d: $(build)/mpm3d
 	cp -f $< $@
 
 $(build)/mpm3d: $(objects)
-	$(CC) $(CFLAGS) $(san) $(openmp) $(LDFLAGS) $^ -lm -o $@
+	@echo "  CC  $@"
+	@$(CC) $(CFLAGS) $(san) $(openmp) $(LDFLAGS) $^ -lm -o $@
 
 $(build)/%.o: src/%.c Makefile
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) $(flags) $(CFLAGS) $(san) $(openmp) -c $< -o $@
+	@echo "  CC  $@"
+	@$(CC) $(CPPFLAGS) $(flags) $(CFLAGS) $(san) $(openmp) -c $< -o $@
 
 $(build)/tec%: tools/tec%.c tools/tecplot_read.c tools/tecplot_read.h
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) $(flags) $(CFLAGS) $(san) $< tools/tecplot_read.c -lm -o $@
+	@echo "  CC  $@"
+	@$(CC) $(CPPFLAGS) $(flags) $(CFLAGS) $(san) $< tools/tecplot_read.c -lm -o $@
 
 unit_tests := $(patsubst tests/unit/%.c,$(build)/tests/%,$(wildcard tests/unit/test_*.c))
 
 $(build)/tests/%: tests/unit/%.c tests/unit/check.h $(library)
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) $(filter-out -MMD -MP,$(flags)) $(CFLAGS) $(san) $(openmp) $< $(library) -lm -o $@
+	@echo "  CC  $@"
+	@$(CC) $(CPPFLAGS) $(filter-out -MMD -MP,$(flags)) $(CFLAGS) $(san) $(openmp) $< $(library) -lm -o $@
 
 # Builds and runs the tensile test of the thesis, and prints its result beside the theory.
 run: all
@@ -58,6 +62,19 @@ run: all
 # The whole suite; the last line counts.
 test: all $(unit_tests) $(build)/fuzz_replay
 	@sh tests/run.sh $(build)
+
+# Speed, against the memory bandwidth of this machine.
+bench: $(build)/bench
+	$(build)/bench $(if $(QUICK),quick)
+
+$(build)/bench: tests/bench/bench.c $(library)
+	@echo "  CC  $@"
+	@$(CC) $(CPPFLAGS) $(filter-out -MMD -MP,$(flags)) $(CFLAGS) $(openmp) $< $(library) -lm -o $@
+
+# Accuracy by scheme: order of convergence, energy and momentum, cell crossing.
+study: $(build)/tests/test_wave $(build)/tests/test_conservation
+	$(build)/tests/test_wave
+	$(build)/tests/test_conservation
 
 # The suite under address and undefined sanitizers with gcc and clang, warnings as errors, and the
 # module prefixes of all functions that are visible outside their file.

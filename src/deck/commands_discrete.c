@@ -3,10 +3,9 @@
 #include "base/memory.h"
 #include "deck/reader.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
-
-enum { MOST_CANDIDATES_FACTOR = 64 };
 
 static const char *nearest_generator(const char *word)
 {
@@ -26,9 +25,97 @@ static const char *nearest_generator(const char *word)
     return found;
 }
 
-/* The points of `part poin com n`, one a line. */
-static bool read_points(struct reader *reader, struct generator *generator, long n)
+/* --- counting numbers ahead: says where one is missing before those behind it are taken amiss --- */
+
+/* The numbers up to the next word that is none. */
+struct run_of_numbers {
+    long count;
+    bool ends_well;        /* a command or the deck's end follows, no misspelt number */
+    bool ends_deck;
+    bool has_even;         /* some line has as many numbers as a line should */
+    long odd_count;        /* numbers of the first line that has not; 0 where there is none */
+    struct deck_place odd; /* of its first surplus number, or behind its last one */
+};
+
+/* A line of the run while it is counted. */
+struct line_of_numbers {
+    long count;
+    struct deck_word last, surplus;
+};
+
+static void end_line(struct run_of_numbers *run, const struct line_of_numbers *line, long a_line)
 {
+    run->has_even = run->has_even || line->count == a_line;
+    if (line->count == a_line || line->count == 0 || run->odd_count > 0)
+        return;
+    run->odd = line->count > a_line ? line->surplus.place : text_behind(&line->last);
+    run->odd_count = line->count;
+}
+
+/* Counts from the word behind the last one taken; a line should have `a_line` numbers. */
+static struct run_of_numbers numbers_ahead(struct reader *reader, long a_line)
+{
+    struct run_of_numbers run = {0};
+    struct line_of_numbers line = {.last = reader->last};
+    struct deck_word word = reader->last;
+    double real;
+    bool has_next;
+    while ((has_next = text_after(reader->text, &word)) && reader_is_real(&word, &real)) {
+        if (word.place.line != line.last.place.line) {
+            end_line(&run, &line, a_line);
+            line.count = 0;
+        }
+        run.count++;
+        line.last = word;
+        if (++line.count == a_line + 1)
+            line.surplus = word;
+    }
+    end_line(&run, &line, a_line);
+    run.ends_deck = !has_next && text_depth(reader->text) == 1;
+    run.ends_well = has_next ? reader_is_keyword(&word) : run.ends_deck;
+    return run;
+}
+
+/* Whether as many numbers follow as n points have. Reports n or the first odd line; where no line
+ * is a point, nothing can be said here. */
+static bool check_points(struct reader *reader, const struct deck_word *before, const struct value *n, long a_line)
+{
+    struct run_of_numbers run = numbers_ahead(reader, a_line);
+    if (run.count == n->integer * a_line || !run.has_even || !run.ends_well)
+        return true;
+    reader->is_cut = run.ends_deck;
+    if (before->place.line != n->word.place.line)
+        diagnostics_error(reader->diagnostics, text_behind(before), "part poin lacks its n; expected a whole number");
+    else if (run.odd_count == 0)
+        diagnostics_error(reader->diagnostics, n->word.place, "n of part poin is %ld, but %ld points follow", n->integer,
+                          run.count / a_line);
+    else
+        diagnostics_error(reader->diagnostics, run.odd, "this line has %ld numbers; a point has %ld: id material mass x y z",
+                          run.odd_count, a_line);
+    return false;
+}
+
+/* Whether the component was forgotten, so that the first number of the next line was taken for it. */
+static bool lacks_component(struct reader *reader, const struct generator *generator, const struct value *values)
+{
+    const struct argument *arguments = generator->row->arguments;
+    long needed = 0;
+    while (arguments[needed].name && arguments[needed].kind != ARGUMENT_WORD)
+        needed++;
+    if (values[0].word.place.line == values[1].word.place.line || reader_at_line_end(reader)
+        || numbers_ahead(reader, needed).count != needed - 1)
+        return false;
+    diagnostics_error(reader->diagnostics, text_behind(&values[0].word), "part lacks its component; expected a whole number");
+    return true;
+}
+
+/* --- bodies --- */
+
+/* The points of `part poin com n`, one a line. */
+static bool read_points(struct reader *reader, struct generator *generator)
+{
+    const struct deck_word component = reader->last;
+    static const struct argument count[] = {{"n", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}};
     static const struct argument arguments[] = {{"id", NULL, ARGUMENT_INTEGER, LIMIT_COUNT},
                                                 {"material", NULL, ARGUMENT_INTEGER, LIMIT_COUNT},
                                                 {"mass", "mass", ARGUMENT_REAL, LIMIT_POSITIVE},
@@ -36,9 +123,11 @@ static bool read_points(struct reader *reader, struct generator *generator, long
                                                 {"y", "length", ARGUMENT_REAL, LIMIT_NONE},
                                                 {"z", "length", ARGUMENT_REAL, LIMIT_NONE},
                                                 {0}};
-    struct value values[KEYWORD_ARGUMENTS];
+    struct value n[2], values[KEYWORD_ARGUMENTS];
     size_t capacity = 0;
-    for (long i = 0; i < n; i++) {
+    if (!reader_values(reader, count, "part poin", n) || !check_points(reader, &component, &n[0], argument_count(arguments)))
+        return false;
+    for (long i = 0; i < n[0].integer; i++) {
         if (!reader_values(reader, arguments, "part poin", values)
             || !reader_check_id(reader, &values[1], (long)reader->scene->n_materials, "material"))
             return false;
@@ -59,11 +148,13 @@ static bool read_points(struct reader *reader, struct generator *generator, long
 /* An axis as x, y, z or 1, 2, 3; -1 and an error otherwise. */
 static int read_axis(struct reader *reader, const struct value *value)
 {
+    char shown[40];
     static const char names[] = "xyzXYZ123";
     const char *found = value->word.length == 1 ? strchr(names, value->word.text[0]) : NULL;
     if (found)
         return (int)(found - names) % 3;
-    diagnostics_error(reader->diagnostics, value->word.place, "the axis must be x, y or z");
+    diagnostics_error(reader->diagnostics, value->word.place, "the axis must be x, y or z, not '%s'",
+                      text_show(&value->word, shown, sizeof shown));
     return -1;
 }
 
@@ -84,7 +175,12 @@ static bool read_lattice(struct reader *reader, struct generator *generator)
             return false;
         generator->number[i - 3] = is_axis ? axis : values[i].real;
     }
-    return true;
+    double mass = generator->density * generator->spacing * generator->spacing * generator->spacing;
+    if (isfinite(mass) && mass > 0)
+        return true;
+    diagnostics_error(reader->diagnostics, values[1].word.place,
+                      "the mass of a particle, density times spacing cubed, is %g", mass);
+    return false;
 }
 
 /* Checks the number of points against nbmp, without going through an absurd lattice. */
@@ -93,12 +189,14 @@ static bool count_points(struct reader *reader, struct scene_body *body)
     const struct scene *scene = reader->scene;
     const struct generator *generator = &body->generator;
     double candidates = generator->row->candidates(generator);
-    double most = 1e6 + MOST_CANDIDATES_FACTOR * (double)scene->particles_declared;
+    double most = 1e6 + generator->row->sparsity * (double)scene->particles_declared;
     body->count = candidates <= most ? generator_count(generator) : -1;
     if (body->count >= 0 && body->count <= scene->particles_declared - scene->n_particles)
         return true;
+    if (scene->particles_declared == 0) /* nbmp is wrong or missing, which is reported */
+        return false;
     if (body->count < 0)
-        diagnostics_error(reader->diagnostics, body->place, "this body's lattice has %.6g points; nbmp is %ld",
+        diagnostics_error(reader->diagnostics, body->place, "this body's lattice has %.6g points, far more than nbmp, %ld",
                           candidates, scene->particles_declared);
     else
         diagnostics_error(reader->diagnostics, body->place,
@@ -109,55 +207,52 @@ static bool count_points(struct reader *reader, struct scene_body *body)
 
 static bool part_may_come(struct reader *reader, const struct deck_word *word)
 {
-    const char *missing = !reader->has_bodies_declared     ? "nbbo"
-                        : !reader->has_particles_declared ? "nbmp"
-                        : reader->scene->n_materials == 0 ? "mate"
-                                                          : NULL;
-    if (missing && (strcmp(missing, "mate") != 0 || diagnostics_errors(reader->diagnostics) == 0))
-        diagnostics_error(reader->diagnostics, word->place, "'part' needs '%s' before it", missing);
-    else if (!missing && (long)reader->scene->n_bodies >= reader->scene->bodies_declared)
+    const struct scene *scene = reader->scene;
+    bool good = reader_needs(reader, word, "nbbo");
+    good = reader_needs(reader, word, "nbmp") && good;
+    good = reader_needs(reader, word, "mate") && good;
+    if (scene->bodies_declared == 0 || (long)scene->n_bodies < scene->bodies_declared)
+        return good;
+    if ((long)scene->n_bodies == scene->bodies_declared) /* said once */
         diagnostics_error(reader->diagnostics, word->place, "one body more than nbbo, which is %ld",
-                          reader->scene->bodies_declared);
-    else
-        return !missing;
+                          scene->bodies_declared);
     return false;
 }
 
-/* Skips the data lines of a part block that can't be read. */
-static void skip_part(struct reader *reader)
+/* Reads what the generator needs. */
+static bool read_generator(struct reader *reader, struct generator *generator, const struct value *values)
 {
-    struct deck_word word;
-    double real;
-    for (reader_skip_line(reader); text_peek(reader->text, &word) && reader_is_real(&word, &real);
-         reader_skip_line(reader))
-        text_next(reader->text, &reader->last);
+    char name[40];
+    generator->row = generator_find(text_copy(&values[0].word, name, sizeof name));
+    if (!generator->row) {
+        reader_unknown(reader, &values[0].word, "generator", nearest_generator(name), "part");
+        return false;
+    }
+    if (!generator->row->arguments)
+        return reader_check_id(reader, &values[1], reader->scene->components, "component")
+            && read_points(reader, generator);
+    return !lacks_component(reader, generator, values)
+        && reader_check_id(reader, &values[1], reader->scene->components, "component")
+        && read_lattice(reader, generator);
 }
 
+/* A body that can't be read keeps its place, so that the numbers of the others are right. */
 static void read_part(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     struct scene *scene = reader->scene;
     struct scene_body body = {.place = word->place, .component = (int)values[1].integer - 1};
-    char name[40];
-    bool good = part_may_come(reader, word);
-    body.generator.row = generator_find(text_copy(&values[0].word, name, sizeof name));
-    if (!body.generator.row)
-        reader_unknown(reader, &values[0].word, "generator", nearest_generator(name));
-    good = good && body.generator.row && reader_check_id(reader, &values[1], scene->components, "component");
-    if (good && !body.generator.row->arguments) {
-        struct value n[2];
-        good = reader_values(reader, (const struct argument[]){{"n", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
-                             "part poin", n)
-            && read_points(reader, &body.generator, n[0].integer);
-    } else if (good) {
-        good = read_lattice(reader, &body.generator);
-    }
-    if (!good) {
+    bool may_come = part_may_come(reader, word);
+    bool good = read_generator(reader, &body.generator, values);
+    if (!good)
+        reader_skip_numbers(reader);
+    if (!good || !may_come || !count_points(reader, &body)) {
+        reader->has_bad_part = true;
         memory_free(body.generator.points);
-        skip_part(reader);
-        return;
-    }
-    if (!count_points(reader, &body))
+        body.generator = (struct generator){0};
         body.count = 0;
+    } else if (body.count == 0) {
+        diagnostics_warning(reader->diagnostics, word->place, "this body has no particle");
+    }
     body.first = scene->n_particles;
     body.has_plot_box = reader->has_plot_box;
     memcpy(body.plot_box, reader->plot_box, sizeof body.plot_box);

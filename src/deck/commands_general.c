@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <string.h>
 
-enum { MOST_FILES = 1000 };
+enum { MOST_FILES = 10000, MOST_DEPTH = 100, MOST_MATERIALS = 100000 };
 
 static void read_title(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
@@ -15,28 +15,34 @@ static void read_title(struct reader *reader, const struct deck_word *word, cons
     reader->scene->title = text_rest_of_line(reader->text, word);
 }
 
+/* A count that comes after what it counts. */
+static void check_order(struct reader *reader, const struct deck_word *word, const char *name, const char *user,
+                        size_t used)
+{
+    if (used > 0 && !reader_is_missing(reader, name))
+        diagnostics_error(reader->diagnostics, word->place, "'%s' has to come before the first '%s'", name, user);
+}
+
 static void read_bodies(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
-    (void)values;
-    if (reader->scene->n_bodies > 0)
-        diagnostics_error(reader->diagnostics, word->place, "'nbbo' has to come before the first 'part'");
-    reader->has_bodies_declared = true;
+    check_order(reader, word, "nbbo", "part", reader->scene->n_bodies);
+    reader->bodies_place = values[0].word.place;
 }
 
 static void read_particles(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
-    (void)values;
-    if (reader->scene->n_bodies > 0)
-        diagnostics_error(reader->diagnostics, word->place, "'nbmp' has to come before the first 'part'");
-    reader->has_particles_declared = true;
+    check_order(reader, word, "nbmp", "part", reader->scene->n_bodies);
+    reader->particles_place = values[0].word.place;
 }
 
 static void read_materials(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
-    (void)values;
-    if (reader->scene->n_materials > 0)
-        diagnostics_error(reader->diagnostics, word->place, "'nmat' has to come before 'mate'");
-    reader->has_materials_declared = true;
+    check_order(reader, word, "nmat", "mate", reader->scene->n_materials);
+    if (values[0].integer <= MOST_MATERIALS)
+        return;
+    diagnostics_error(reader->diagnostics, values[0].word.place, "materials of nmat must be at most %d, not %ld",
+                      MOST_MATERIALS, values[0].integer);
+    reader->scene->materials_declared = 0;
 }
 
 static void read_end(struct reader *reader, const struct deck_word *word, const struct value *values)
@@ -57,6 +63,23 @@ static char *path_from(const char *deck, const char *name, size_t length)
     return path;
 }
 
+/* Starts reading a file; what is wrong with it, or NULL. */
+static const char *include(struct reader *reader, const char *path)
+{
+    if (text_is_open(reader->text, path))
+        return "the file includes itself";
+    if (text_depth(reader->text) > MOST_DEPTH)
+        return "includes inside includes; does one include itself?";
+    if (text_file_count(reader->text) > MOST_FILES)
+        return "too many included files";
+    if (*path == '\0' || path[strlen(path) - 1] == '/')
+        return "a file name is missing";
+    if (strcmp(path, "-") == 0)
+        return "standard input can't be included";
+    int failure = text_include_file(reader->text, path);
+    return failure ? strerror(failure) : NULL;
+}
+
 static void read_include(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     (void)word;
@@ -68,13 +91,11 @@ static void read_include(struct reader *reader, const struct deck_word *word, co
         length -= length > 1 && name[length - 2] == '"' ? 2 : 1;
     }
     char *path = path_from(text_file(reader->text, file->place.file)->name, name, length);
-    int failure = 0;
-    if (text_is_open(reader->text, path) || text_file_count(reader->text) > MOST_FILES)
-        diagnostics_error(reader->diagnostics, file->place, "'%s' includes itself", path);
-    else
-        failure = text_include_file(reader->text, path);
-    if (failure)
-        diagnostics_error(reader->diagnostics, file->place, "cannot read '%s': %s", path, strerror(failure));
+    const char *wrong = include(reader, path);
+    if (wrong) {
+        diagnostics_error(reader->diagnostics, file->place, "cannot include '%s': %s", path, wrong);
+        reader->is_partial = true;
+    }
     memory_free(path);
 }
 
@@ -83,13 +104,13 @@ const struct keyword general_keywords[] = {
     {.name = "nbco", .arguments = (const struct argument[]){{"components", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
      .field = offsetof(struct scene, components), .doc = "number of components (velocity fields for contact)"},
     {.name = "nbbo", .arguments = (const struct argument[]){{"bodies", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
-     .field = offsetof(struct scene, bodies_declared), .apply = read_bodies,
+     .field = offsetof(struct scene, bodies_declared), .apply = read_bodies, .once = true,
      .doc = "number of bodies; before part, load, velo"},
     {.name = "nbmp", .arguments = (const struct argument[]){{"particles", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
-     .field = offsetof(struct scene, particles_declared), .apply = read_particles,
+     .field = offsetof(struct scene, particles_declared), .apply = read_particles, .once = true,
      .doc = "number of particles; before mate, part, curv"},
     {.name = "nmat", .arguments = (const struct argument[]){{"materials", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
-     .field = offsetof(struct scene, materials_declared), .apply = read_materials,
+     .field = offsetof(struct scene, materials_declared), .apply = read_materials, .once = true,
      .doc = "number of materials; before mate"},
     {.name = "incl", .long_name = "include",
      .arguments = (const struct argument[]){{"file", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}}, .apply = read_include,
@@ -100,16 +121,18 @@ const struct keyword general_keywords[] = {
 void reader_finish_general(struct reader *reader, struct deck_place end)
 {
     struct scene *scene = reader->scene;
-    if (scene->n_bodies == 0)
+    if (scene->n_bodies == 0 && !reader_was_given(reader, "part"))
         diagnostics_error(reader->diagnostics, end, "the deck has no particles; expected a 'part' block");
-    else if (scene->n_particles == 0)
+    else if (scene->n_particles == 0 && !reader->has_bad_part)
         diagnostics_error(reader->diagnostics, scene->bodies[0].place, "the bodies of this deck hold no particle");
-    else if ((long)scene->n_bodies < scene->bodies_declared)
-        diagnostics_warning(reader->diagnostics, end, "nbbo says %ld bodies, the deck has %zu", scene->bodies_declared,
-                            scene->n_bodies);
-    else if (scene->n_particles < scene->particles_declared)
-        diagnostics_warning(reader->diagnostics, end, "nbmp says %ld particles, the deck has %ld",
-                            scene->particles_declared, scene->n_particles);
     if (!scene->title)
         scene->title = memory_text("mpm3d", 5);
+    if (diagnostics_errors(reader->diagnostics) > 0)
+        return;
+    if ((long)scene->n_bodies < scene->bodies_declared)
+        diagnostics_warning(reader->diagnostics, reader->bodies_place, "nbbo says %ld bodies, the deck has %zu",
+                            scene->bodies_declared, scene->n_bodies);
+    if (scene->n_particles < scene->particles_declared)
+        diagnostics_warning(reader->diagnostics, reader->particles_place, "nbmp says %ld particles, the deck has %ld",
+                            scene->particles_declared, scene->n_particles);
 }

@@ -12,20 +12,23 @@
     {a, unit, ARGUMENT_REAL, LIMIT_NONE}, {b, unit, ARGUMENT_REAL, LIMIT_NONE}, {c, unit, ARGUMENT_REAL, LIMIT_NONE}, \
     {0}
 
-static bool check_target(struct reader *reader, const struct value *id, bool is_body)
+/* Whether the body or particle that `word` speaks of exists, as far as can be said now. */
+static bool check_target(struct reader *reader, const struct deck_word *word, const struct value *id, bool is_body)
 {
     const struct scene *scene = reader->scene;
+    if (reader_is_missing(reader, "nbbo") || !reader_needs(reader, word, is_body ? "part" : "nbmp"))
+        return false;
     return is_body ? reader_check_id(reader, id, (long)scene->n_bodies, "body")
                    : reader_check_id(reader, id, scene->particles_declared, "particle");
 }
 
 /* Adds a load whose target is values[id] and whose vector starts at values[id + 1]. */
-static void add_load(struct reader *reader, enum scene_load_kind kind, const struct value *values, int id,
-                     struct scene_load load)
+static void add_load(struct reader *reader, const struct deck_word *word, enum scene_load_kind kind,
+                     const struct value *values, int id, struct scene_load load)
 {
     struct scene *scene = reader->scene;
     bool is_body = kind == LOAD_BODY || kind == LOAD_GRAVITY || kind == LOAD_FACE;
-    if (!check_target(reader, &values[id], is_body))
+    if (!check_target(reader, word, &values[id], is_body))
         return;
     load.kind = kind;
     load.target = values[id].integer - 1;
@@ -38,38 +41,35 @@ static void add_load(struct reader *reader, enum scene_load_kind kind, const str
 
 static void load_particle(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
-    (void)word;
-    add_load(reader, LOAD_PARTICLE, values, 0, (struct scene_load){0});
+    add_load(reader, word, LOAD_PARTICLE, values, 0, (struct scene_load){0});
 }
 
 static void load_density(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
-    (void)word;
-    add_load(reader, LOAD_DENSITY, values, 0, (struct scene_load){0});
+    add_load(reader, word, LOAD_DENSITY, values, 0, (struct scene_load){0});
 }
 
 static void load_body(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
-    (void)word;
-    add_load(reader, LOAD_BODY, values, 0, (struct scene_load){0});
+    add_load(reader, word, LOAD_BODY, values, 0, (struct scene_load){0});
 }
 
 static void load_gravity(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
-    (void)word;
-    add_load(reader, LOAD_GRAVITY, values, 0, (struct scene_load){0});
+    add_load(reader, word, LOAD_GRAVITY, values, 0, (struct scene_load){0});
 }
 
 static void load_face(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
-    (void)word;
     static const char *const sides[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
     for (int i = 0; i < 6; i++)
         if (values[0].word.length == 2 && strncasecmp(values[0].word.text, sides[i], 2) == 0) {
-            add_load(reader, LOAD_FACE, values, 1, (struct scene_load){.axis = i / 2, .side = i % 2 ? 1 : -1});
+            add_load(reader, word, LOAD_FACE, values, 1, (struct scene_load){.axis = i / 2, .side = i % 2 ? 1 : -1});
             return;
         }
-    diagnostics_error(reader->diagnostics, values[0].word.place, "a face must be x-, x+, y-, y+, z- or z+");
+    char shown[40];
+    diagnostics_error(reader->diagnostics, values[0].word.place, "a face must be x-, x+, y-, y+, z- or z+, not '%s'",
+                      text_show(&values[0].word, shown, sizeof shown));
 }
 
 const struct keyword load_keywords[] = {
@@ -88,10 +88,11 @@ const struct keyword load_keywords[] = {
      .doc = "traction per initial area on the outermost particle layer of a body on side x- x+ y- y+ z- z+"},
     {0}};
 
-static void add_velocity(struct reader *reader, enum scene_velocity_kind kind, const struct value *values)
+static void add_velocity(struct reader *reader, const struct deck_word *word, enum scene_velocity_kind kind,
+                         const struct value *values)
 {
     struct scene *scene = reader->scene;
-    if (!check_target(reader, &values[0], kind == VELOCITY_BODY))
+    if (!check_target(reader, word, &values[0], kind == VELOCITY_BODY))
         return;
     struct scene_velocity velocity = {kind, values[0].integer - 1, {values[1].real, values[2].real, values[3].real},
                                       values[0].word.place};
@@ -102,14 +103,12 @@ static void add_velocity(struct reader *reader, enum scene_velocity_kind kind, c
 
 static void velocity_particle(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
-    (void)word;
-    add_velocity(reader, VELOCITY_PARTICLE, values);
+    add_velocity(reader, word, VELOCITY_PARTICLE, values);
 }
 
 static void velocity_body(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
-    (void)word;
-    add_velocity(reader, VELOCITY_BODY, values);
+    add_velocity(reader, word, VELOCITY_BODY, values);
 }
 
 const struct keyword velocity_keywords[] = {
@@ -125,8 +124,7 @@ const struct keyword velocity_keywords[] = {
 static void read_block(struct reader *reader, const struct deck_word *word, const struct keyword *table,
                        const char *end, const char *owner)
 {
-    if (!reader->has_bodies_declared)
-        diagnostics_error(reader->diagnostics, word->place, "'%s' needs 'nbbo' before it", owner);
+    reader_needs(reader, word, "nbbo");
     reader_block(reader, table, end, owner);
 }
 
@@ -151,24 +149,26 @@ const struct keyword loading_keywords[] = {
     {.name = "QuLo", .doc = "slow loading ramp", .later = "quasi-static loading"},
     {0}};
 
+static void check_particle(struct reader *reader, long particle, struct deck_place place)
+{
+    if (particle >= reader->scene->n_particles)
+        diagnostics_error(reader->diagnostics, place, "particle %ld does not exist; the deck has %ld", particle + 1,
+                          reader->scene->n_particles);
+}
+
 /* Particle targets were checked against nbmp; the deck may have created fewer. */
 void reader_finish_targets(struct reader *reader)
 {
     const struct scene *scene = reader->scene;
-    for (size_t i = 0; i < scene->n_loads; i++) {
-        const struct scene_load *load = &scene->loads[i];
-        if ((load->kind == LOAD_PARTICLE || load->kind == LOAD_DENSITY) && load->target >= scene->n_particles)
-            diagnostics_error(reader->diagnostics, load->place, "particle %ld does not exist; the deck has %ld",
-                              load->target + 1, scene->n_particles);
-    }
+    if (reader->has_bad_part || scene->n_particles == 0)
+        return;
+    for (size_t i = 0; i < scene->n_loads; i++)
+        if (scene->loads[i].kind == LOAD_PARTICLE || scene->loads[i].kind == LOAD_DENSITY)
+            check_particle(reader, scene->loads[i].target, scene->loads[i].place);
     for (size_t i = 0; i < scene->n_velocities; i++)
-        if (scene->velocities[i].kind == VELOCITY_PARTICLE && scene->velocities[i].target >= scene->n_particles)
-            diagnostics_error(reader->diagnostics, scene->velocities[i].place,
-                              "particle %ld does not exist; the deck has %ld", scene->velocities[i].target + 1,
-                              scene->n_particles);
+        if (scene->velocities[i].kind == VELOCITY_PARTICLE)
+            check_particle(reader, scene->velocities[i].target, scene->velocities[i].place);
     for (size_t i = 0; i < scene->n_curves; i++)
-        if (!scene->curves[i].is_near && scene->curves[i].particle >= scene->n_particles)
-            diagnostics_error(reader->diagnostics, scene->curves[i].place,
-                              "particle %ld does not exist; the deck has %ld", scene->curves[i].particle + 1,
-                              scene->n_particles);
+        if (!scene->curves[i].is_near)
+            check_particle(reader, scene->curves[i].particle, scene->curves[i].place);
 }

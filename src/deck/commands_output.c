@@ -29,7 +29,8 @@ static const struct result *find_result(struct reader *reader, const struct deck
             nearest = rows[i].name;
         }
     }
-    reader_unknown(reader, word, "result", nearest);
+    reader_unknown(reader, word, "result", nearest, "outr");
+    reader_skip_line(reader);
     return NULL;
 }
 
@@ -70,21 +71,17 @@ static void read_curve(struct reader *reader, const struct deck_word *word, cons
     struct scene_curve curve = {.result = find_result(reader, &values[0].word), .place = values[0].word.place};
     struct deck_word next;
     struct value id = {.integer = 1};
+    reader_needs(reader, word, "nbmp");
     bool has_id = !reader_at_line_end(reader) && text_peek(reader->text, &next) && next.length > 0
                && strchr("0123456789+-.", next.text[0]);
-    if (!reader->has_particles_declared)
-        diagnostics_error(reader->diagnostics, word->place, "'curv' needs 'nbmp' before it");
     if (has_id) {
         struct value read[2];
         if (!reader_values(reader, (const struct argument[]){{"particle", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
-                           "curv", read)) {
-            reader_skip_line(reader);
+                           "curv", read))
             return;
-        }
         id = read[0];
         curve.place = id.word.place;
-        if (reader->has_particles_declared
-            && !reader_check_id(reader, &id, reader->scene->particles_declared, "particle"))
+        if (!reader_check_id(reader, &id, reader->scene->particles_declared, "particle"))
             return;
     }
     curve.particle = id.integer - 1;
@@ -97,11 +94,7 @@ static void read_near_curve(struct reader *reader, const struct deck_word *word,
     struct scene_curve curve = {.result = find_result(reader, &values[0].word), .is_near = true, .place = word->place};
     for (int a = 0; a < 3; a++)
         curve.point[a] = values[1 + a].real;
-    if (reader->scene->cell_size <= 0)
-        diagnostics_error(reader->diagnostics, word->place, "'curx' needs 'dcel' before it");
-    else if (reader->scene->n_particles == 0 && diagnostics_errors(reader->diagnostics) == 0)
-        diagnostics_error(reader->diagnostics, word->place, "'curx' needs all particles before it");
-    else if (curve.result)
+    if (reader_needs(reader, word, "dcel") && reader_needs(reader, word, "part") && curve.result)
         add_curve(reader->scene, curve);
 }
 
@@ -110,7 +103,7 @@ static void read_choice(struct reader *reader, const struct value *value, const 
                         const char *owner, bool *is_first)
 {
     char word[40];
-    text_copy(&value->word, word, sizeof word);
+    text_show(&value->word, word, sizeof word);
     if (strncasecmp(word, first, 4) != 0 && strncasecmp(word, second, 4) != 0)
         diagnostics_error(reader->diagnostics, value->word.place, "%s must be %s or %s, not '%s'", owner, first, second,
                           word);

@@ -87,6 +87,13 @@ int keyword_distance(const char *word, const char *name)
     return distance <= 2 && distance * 2 <= length ? distance : -1;
 }
 
+int keyword_row_distance(const struct keyword *row, const char *word)
+{
+    int by_name = keyword_distance(word, row->name);
+    int by_long_name = row->long_name ? keyword_distance(word, row->long_name) : -1;
+    return by_name < 0 || (by_long_name >= 0 && by_long_name < by_name) ? by_long_name : by_name;
+}
+
 /* Improves *best and *found by the rows of a table. */
 static void nearest(const struct keyword *table, const char *word, int *best, const char **found)
 {

@@ -42,6 +42,7 @@ struct keyword {
     const char *doc;
     const char *details; /* sub-block syntax and order rules for --help, or NULL */
     const char *later;   /* not NULL: known word without its feature; says what is missing */
+    bool once;           /* may stand in a deck only once */
 };
 
 /* The table of a category, ended by a row without name. */
@@ -60,6 +61,9 @@ const struct keyword *keyword_find(const char *word, enum category *category);
 /* Name of the keyword nearest to a misspelt word, or NULL when none is near. */
 const char *keyword_nearest(const struct keyword *table, const char *word);
 const char *keyword_nearest_top(const char *word);
+
+/* Distance of a word from the nearer spelling of a row, -1 if far. */
+int keyword_row_distance(const struct keyword *row, const char *word);
 
 /* Whether two spellings are near enough for a suggestion; smaller is nearer, -1 is far. */
 int keyword_distance(const char *word, const char *name);

@@ -107,23 +107,53 @@ void reader_skip_line(struct reader *reader)
         take(reader, &word);
 }
 
+void reader_skip_numbers(struct reader *reader)
+{
+    struct deck_word word;
+    double real;
+    for (reader_skip_line(reader); text_peek(reader->text, &word) && reader_is_real(&word, &real);
+         reader_skip_line(reader))
+        take(reader, &word);
+}
+
 bool reader_word(struct reader *reader, struct deck_word *word, const char *what)
 {
     if (take(reader, word))
         return true;
     diagnostics_error(reader->diagnostics, text_behind(&reader->last), "the deck ends here; expected %s", what);
+    reader->is_cut = true;
     return false;
 }
 
-void reader_unknown(struct reader *reader, const struct deck_word *word, const char *kind, const char *nearest)
+bool reader_is_keyword(const struct deck_word *word)
+{
+    char text[SHOWN];
+    text_copy(word, text, sizeof text);
+    return keyword_find(text, NULL) || keyword_in(load_keywords, text) || keyword_in(velocity_keywords, text)
+        || strncasecmp(text, "endl", 4) == 0 || strncasecmp(text, "endv", 4) == 0;
+}
+
+/* Whether a word is a command in its full spelling; a file or a name may begin like one. */
+static bool is_command(const struct deck_word *word)
+{
+    char text[SHOWN];
+    const struct keyword *row = keyword_find(text_copy(word, text, sizeof text), NULL);
+    return row && (strcasecmp(text, row->name) == 0 || (row->long_name && strcasecmp(text, row->long_name) == 0));
+}
+
+void reader_unknown(struct reader *reader, const struct deck_word *word, const char *kind, const char *nearest,
+                    const char *topic)
 {
     char shown[SHOWN];
-    text_copy(word, shown, sizeof shown);
+    text_show(word, shown, sizeof shown);
     if (nearest)
         diagnostics_error(reader->diagnostics, word->place, "unknown %s '%s'; did you mean '%s'?", kind, shown, nearest);
     else
-        diagnostics_error(reader->diagnostics, word->place, "unknown %s '%s'; see mpm3d --help", kind, shown);
+        diagnostics_error(reader->diagnostics, word->place, "unknown %s '%s'; see mpm3d --help%s%s", kind, shown,
+                          *topic ? " " : "", topic);
 }
+
+/* --- arguments --- */
 
 static const char *kind_text(const struct argument *argument)
 {
@@ -136,9 +166,12 @@ static bool check_limit(struct reader *reader, const struct argument *argument, 
     char shown[SHOWN];
     if (argument_within(argument->limit, value->real))
         return true;
-    diagnostics_error(reader->diagnostics, value->word.place, "%s of %s must be %s, not %s", argument->name, owner,
-                      *argument_limit_text(argument->limit) ? argument_limit_text(argument->limit) : "a finite number",
-                      text_copy(&value->word, shown, sizeof shown));
+    text_show(&value->word, shown, sizeof shown);
+    if (!isfinite(value->real))
+        diagnostics_error(reader->diagnostics, value->word.place, "%s of %s is too large: %s", argument->name, owner, shown);
+    else
+        diagnostics_error(reader->diagnostics, value->word.place, "%s of %s must be %s, not %s", argument->name, owner,
+                          argument_limit_text(argument->limit), shown);
     return false;
 }
 
@@ -152,24 +185,40 @@ static bool read_value(struct reader *reader, const struct argument *argument, c
     bool is_number = parse_number(&value->word, &value->real, &is_integer);
     if (!is_number || (argument->kind == ARGUMENT_INTEGER && !is_integer)) {
         diagnostics_error(reader->diagnostics, value->word.place, "expected %s for %s of %s, found '%s'",
-                          kind_text(argument), argument->name, owner, text_copy(&value->word, shown, sizeof shown));
+                          kind_text(argument), argument->name, owner, text_show(&value->word, shown, sizeof shown));
         return false;
     }
     if (argument->kind == ARGUMENT_INTEGER && !reader_is_integer(&value->word, &value->integer)) {
-        diagnostics_error(reader->diagnostics, value->word.place, "%s of %s is too large", argument->name, owner);
+        diagnostics_error(reader->diagnostics, value->word.place, "%s of %s is too large: %s", argument->name, owner,
+                          text_show(&value->word, shown, sizeof shown));
         return false;
     }
     return check_limit(reader, argument, owner, value);
 }
 
-/* Whether the word that follows on another line is the next command instead of an argument. */
+/* Whether the next word is the id of a material: a law follows it. */
+static bool is_material_id(struct reader *reader)
+{
+    struct deck_word law;
+    char text[SHOWN];
+    return text_second(reader->text, &law) && law_find(text_copy(&law, text, sizeof text));
+}
+
+/* Whether the next word is not the argument but already what follows the command. */
 static bool is_missing(struct reader *reader, const struct argument *argument)
 {
     struct deck_word next;
     double real;
-    if (!reader_at_line_end(reader))
-        return false;
-    return !text_peek(reader->text, &next) || (argument->kind != ARGUMENT_WORD && !reader_is_real(&next, &real));
+    if (!text_peek(reader->text, &next)) {
+        reader->is_cut = true;
+        return true;
+    }
+    bool at_line_end = reader_at_line_end(reader);
+    if (argument->kind == ARGUMENT_WORD)
+        return at_line_end && is_command(&next);
+    if (reader_is_real(&next, &real))
+        return reader->in_materials && is_material_id(reader);
+    return reader_is_keyword(&next) || (at_line_end && !strchr("0123456789+-.", *next.text));
 }
 
 bool reader_values(struct reader *reader, const struct argument *arguments, const char *owner, struct value *values)
@@ -178,14 +227,18 @@ bool reader_values(struct reader *reader, const struct argument *arguments, cons
     for (int i = 0; i < argument_count(arguments); i++) {
         values[i] = (struct value){0};
         if (is_missing(reader, &arguments[i])) {
-            diagnostics_error(reader->diagnostics, text_behind(&reader->last), "%s lacks its %s; expected %s", owner,
-                              arguments[i].name, kind_text(&arguments[i]));
+            if (good)
+                diagnostics_error(reader->diagnostics, text_behind(&reader->last), "%s lacks its %s; expected %s", owner,
+                                  arguments[i].name, kind_text(&arguments[i]));
             return false;
         }
         take(reader, &values[i].word);
         if (!read_value(reader, &arguments[i], owner, &values[i]))
             good = false;
     }
+    struct deck_word next;
+    while (!good && !reader_at_line_end(reader) && text_peek(reader->text, &next) && !reader_is_keyword(&next))
+        take(reader, &next);
     return good;
 }
 
@@ -193,10 +246,7 @@ bool reader_check_id(struct reader *reader, const struct value *value, long coun
 {
     if (value->integer >= 1 && value->integer <= count)
         return true;
-    if (count == 0)
-        diagnostics_error(reader->diagnostics, value->word.place, "%s %ld does not exist; there is none yet", what,
-                          value->integer);
-    else
+    if (count > 0 && !reader->is_partial)
         diagnostics_error(reader->diagnostics, value->word.place, "%s %ld does not exist; expected 1 to %ld", what,
                           value->integer, count);
     return false;
@@ -205,7 +255,7 @@ bool reader_check_id(struct reader *reader, const struct value *value, long coun
 int reader_switch(struct reader *reader, const struct value *value, const char *owner)
 {
     char word[SHOWN];
-    text_copy(&value->word, word, sizeof word);
+    text_show(&value->word, word, sizeof word);
     if (strcasecmp(word, "on") == 0)
         return 1;
     if (strcasecmp(word, "off") == 0)
@@ -248,7 +298,7 @@ static void run_command(struct reader *reader, const struct keyword *row, const 
     if (row->later) {
         diagnostics_error(reader->diagnostics, word->place, "'%s' is not available in this version: %s", row->name,
                           row->later);
-        reader_skip_line(reader);
+        reader_skip_numbers(reader);
         return;
     }
     if (!reader_values(reader, row->arguments, row->name, values))
@@ -259,57 +309,195 @@ static void run_command(struct reader *reader, const struct keyword *row, const 
         row->apply(reader, word, values);
 }
 
+/* The bit of a top-level command in scene.given and reader.missing. */
+static uint64_t bit_of(const char *name, enum category *category)
+{
+    const struct keyword *row = keyword_find(name, category);
+    return UINT64_C(1) << (row - keyword_table(*category));
+}
+
+bool reader_was_given(const struct reader *reader, const char *name)
+{
+    enum category category;
+    uint64_t bit = bit_of(name, &category);
+    return reader->is_partial || (reader->scene->given[category] & bit);
+}
+
+bool reader_is_missing(const struct reader *reader, const char *name)
+{
+    enum category category;
+    uint64_t bit = bit_of(name, &category);
+    return reader->missing[category] & bit;
+}
+
+bool reader_needs(struct reader *reader, const struct deck_word *word, const char *name)
+{
+    char shown[SHOWN];
+    enum category category;
+    uint64_t bit = bit_of(name, &category);
+    if (reader_was_given(reader, name))
+        return true;
+    if (!reader_is_missing(reader, name))
+        diagnostics_error(reader->diagnostics, word->place, "'%s' needs '%s' before it",
+                          text_show(word, shown, sizeof shown), name);
+    reader->missing[category] |= bit;
+    return false;
+}
+
+void reader_command(struct reader *reader, const struct keyword *row, const struct deck_word *word)
+{
+    enum category category;
+    uint64_t bit = bit_of(row->name, &category);
+    if (row->once && (reader->scene->given[category] & bit))
+        diagnostics_error(reader->diagnostics, word->place, "'%s' was given before", row->name);
+    reader->scene->given[category] |= bit;
+    reader->command = row->name;
+    run_command(reader, row, word);
+}
+
+/* Notes a number where a word has to stand. A run of numbers is one mistake. */
+static void unexpected_number(struct reader *reader, const struct deck_word *word, const char *what, const char *before)
+{
+    char shown[SHOWN];
+    text_show(word, shown, sizeof shown);
+    if (before)
+        diagnostics_error(reader->diagnostics, word->place, "expected %s, found the number %s; '%s' takes no more", what,
+                          shown, before);
+    else
+        diagnostics_error(reader->diagnostics, word->place, "expected %s, found the number %s", what, shown);
+    reader_skip_numbers(reader);
+}
+
+/* --- blocks --- */
+
+/* Whether a word that means something in the block and in the deck means the latter: commands of
+ * the deck are followed by a word, those of blocks by an id. */
+static bool leaves_block(struct reader *reader, const char *text)
+{
+    struct deck_word second;
+    return keyword_find(text, NULL) && text_second(reader->text, &second) && !strchr("0123456789+-.", *second.text);
+}
+
+/* Notes a word that does not belong in a block; whether it was meant to end the block. */
+static bool unknown_in_block(struct reader *reader, const struct deck_word *word, const struct keyword *table,
+                             const char *end, const char *owner)
+{
+    char text[SHOWN], what[SHOWN];
+    double real;
+    text_copy(word, text, sizeof text);
+    const char *nearest = keyword_nearest(table, text);
+    bool is_end = keyword_distance(text, end) >= 0
+               && (!nearest || keyword_distance(text, end) < keyword_distance(text, nearest));
+    snprintf(what, sizeof what, "a word of '%s' or '%s'", owner, end);
+    if (reader_is_real(word, &real)) {
+        unexpected_number(reader, word, what, NULL);
+        return false;
+    }
+    reader_unknown(reader, word, "word in a block", is_end ? end : nearest, owner);
+    if (!is_end)
+        reader_skip_numbers(reader);
+    return is_end;
+}
+
+/* A command of the deck inside a block is reported once, and run as if the block had been closed,
+ * so that its own mistakes are found too. False where that goes too deep. */
+static bool command_in_block(struct reader *reader, struct deck_word *word, const char *end, const char *owner,
+                             bool *is_reported)
+{
+    char text[SHOWN];
+    text_copy(word, text, sizeof text);
+    if (!*is_reported)
+        diagnostics_error(reader->diagnostics, word->place, "'%s' inside the block '%s'; expected '%s' first", text,
+                          owner, end);
+    *is_reported = true;
+    if (reader->depth == READER_DEPTH)
+        return false;
+    take(reader, word);
+    reader_command(reader, keyword_find(text, NULL), word);
+    return true;
+}
+
 void reader_block(struct reader *reader, const struct keyword *table, const char *end, const char *owner)
 {
     struct deck_word word;
     char text[SHOWN];
     struct deck_place start = reader->last.place;
-    while (text_peek(reader->text, &word)) {
-        text_copy(&word, text, sizeof text);
-        if (strncasecmp(text, end, 4) == 0) {
-            take(reader, &word);
-            return;
-        }
-        const struct keyword *row = keyword_in(table, text);
-        if (!row && keyword_find(text, NULL)) { /* a command of the deck: the block was not closed */
-            diagnostics_error(reader->diagnostics, word.place, "'%s' inside the block '%s'; expected '%s' first", text,
-                              owner, end);
-            return;
-        }
-        take(reader, &word);
-        if (row) {
-            run_command(reader, row, &word);
+    bool is_reported = false, is_closed = false;
+    reader->depth++;
+    while (!is_closed && !reader->ended && text_peek(reader->text, &word)) {
+        const struct keyword *row = keyword_in(table, text_copy(&word, text, sizeof text));
+        if (keyword_find(text, NULL) && (!row || leaves_block(reader, text))) {
+            if (!command_in_block(reader, &word, end, owner, &is_reported))
+                break;
             continue;
         }
-        const char *nearest = keyword_nearest(table, text);
-        reader_unknown(reader, &word, "word in a block", nearest ? nearest : keyword_distance(text, end) >= 0 ? end : NULL);
-        reader_skip_line(reader);
+        take(reader, &word);
+        if (strncasecmp(text, end, 4) == 0)
+            is_closed = true;
+        else if (row)
+            run_command(reader, row, &word);
+        else
+            is_closed = unknown_in_block(reader, &word, table, end, owner);
     }
-    diagnostics_error(reader->diagnostics, start, "the block '%s' is not closed; expected '%s'", owner, end);
+    reader->depth--;
+    if (is_closed || is_reported)
+        return;
+    if (!reader->is_cut)
+        diagnostics_error(reader->diagnostics, start, "the block '%s' is not closed; expected '%s'", owner, end);
+    reader->is_cut = true;
 }
 
-/* Notes a word that is no command. Runs of numbers are one mistake: they belong to what precedes. */
+/* --- the deck --- */
+
+/* Goes on behind a misspelt command. Where only one is meant it is run, so that what depends on
+ * it is not reported too; otherwise all that may be meant count as given. */
+static void guess_command(struct reader *reader, const struct deck_word *word, const char *text, int distance)
+{
+    const struct keyword *meant = NULL;
+    int count = 0;
+    for (int c = 0; c < CATEGORY_COUNT; c++)
+        for (const struct keyword *row = keyword_table((enum category)c); row->name; row++)
+            if (keyword_row_distance(row, text) == distance) {
+                reader->scene->given[c] |= UINT64_C(1) << (row - keyword_table((enum category)c));
+                meant = row;
+                count++;
+            }
+    if (count == 1 && distance == 1 && strcmp(meant->name, "endi") != 0)
+        run_command(reader, meant, word);
+    else
+        reader_skip_numbers(reader);
+}
+
 static void unknown_command(struct reader *reader, const struct deck_word *word, const char *text)
 {
     double real;
-    if (reader_is_real(word, &real))
-        diagnostics_error(reader->diagnostics, word->place, "expected a keyword, found the number %s", text);
-    else
-        reader_unknown(reader, word, "keyword", keyword_nearest_top(text));
-    reader_skip_line(reader);
+    if (reader_is_real(word, &real)) {
+        unexpected_number(reader, word, "a keyword", reader->command);
+        return;
+    }
+    const char *nearest = keyword_nearest_top(text);
+    reader_unknown(reader, word, "keyword", nearest, "");
+    if (nearest) {
+        guess_command(reader, word, text, keyword_distance(text, nearest));
+        return;
+    }
+    reader->is_partial = true;
+    reader_skip_numbers(reader);
 }
 
+/* What the whole deck lacks; not asked when a part of it could not be read. */
 static void finish(struct reader *reader)
 {
     struct deck_place end = reader->last.place;
-    if (!reader->ended && diagnostics_errors(reader->diagnostics) == 0)
+    if (reader->is_cut || reader->is_partial || text_is_cut(reader->text))
+        return;
+    if (!reader->ended && !reader_was_given(reader, "endi")) {
         diagnostics_error(reader->diagnostics, text_behind(&reader->last), "the deck ends without 'endi'");
-    if (diagnostics_errors(reader->diagnostics) == 0)
-        reader_finish_general(reader, end);
-    if (diagnostics_errors(reader->diagnostics) == 0)
-        reader_finish_grid(reader, end);
-    if (diagnostics_errors(reader->diagnostics) == 0)
-        reader_finish_materials(reader, end);
+        return;
+    }
+    reader_finish_general(reader, end);
+    reader_finish_grid(reader, end);
+    reader_finish_materials(reader);
     reader_finish_targets(reader);
 }
 
@@ -320,13 +508,9 @@ struct scene *reader_read(struct deck_text *text, struct diagnostics *diagnostic
     char name[SHOWN];
     reader.last.place = (struct deck_place){0, 1, 1, 0};
     while (!reader.ended && take(&reader, &word)) {
-        text_copy(&word, name, sizeof name);
-        enum category category;
-        const struct keyword *row = keyword_find(name, &category);
+        const struct keyword *row = keyword_find(text_copy(&word, name, sizeof name), NULL);
         if (row)
-            reader.scene->given[category] |= UINT64_C(1) << (row - keyword_table(category));
-        if (row)
-            run_command(&reader, row, &word);
+            reader_command(&reader, row, &word);
         else
             unknown_command(&reader, &word, name);
     }

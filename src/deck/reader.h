@@ -7,18 +7,28 @@
 #include "deck/keyword.h"
 #include "deck/scene.h"
 
+#include <stdint.h>
+
+enum { READER_DEPTH = 4 }; /* of blocks in blocks, which only wrong decks have */
+
 struct reader {
     struct deck_text *text;
     struct diagnostics *diagnostics;
     struct scene *scene;
+    const char *command;           /* the last command of the deck itself */
+    struct deck_word last;         /* last word taken, to report what is missing behind it */
+    int depth;                     /* of blocks inside blocks */
     bool ended;                    /* endi was read */
-    bool has_bodies_declared, has_particles_declared, has_materials_declared;
+    bool is_cut;                   /* the deck ended inside a command: what else is missing is no news */
+    bool is_partial;               /* a line or file was not understood: what seems missing may be there */
+    bool in_materials;             /* a number before the name of a law is the next material's id */
+    bool has_bad_material, has_bad_part;
     bool has_scheme;               /* a scheme was switched on */
     bool has_output_interval;
     bool has_plot_box;             /* pt2d was read: it holds for bodies that follow */
     double plot_box[6];
-    struct deck_place output_interval_place;
-    struct deck_word last;         /* last word taken, to report what is missing behind it */
+    uint64_t missing[CATEGORY_COUNT]; /* words reported as missing, like scene.given */
+    struct deck_place output_interval_place, bodies_place, particles_place, materials_place, span_place[3];
 };
 
 /* Reads the deck from `text` into a new scene. Mistakes go to `diagnostics`; when there are any
@@ -29,14 +39,33 @@ struct scene *reader_read(struct deck_text *text, struct diagnostics *diagnostic
 bool reader_word(struct reader *reader, struct deck_word *word, const char *what);
 
 /* Reads the arguments of a word, checking kind and limit of each. On a mistake: reports it, skips
- * the rest of the line and returns false. `owner` names the word in messages. */
+ * the rest of the line up to the next keyword and returns false. `owner` names the word in
+ * messages. */
 bool reader_values(struct reader *reader, const struct argument *arguments, const char *owner, struct value *values);
 
 /* Takes words up to, not including, the next one that begins a line. */
 void reader_skip_line(struct reader *reader);
 
+/* Takes the rest of the line and all lines below it that begin with a number. */
+void reader_skip_numbers(struct reader *reader);
+
 /* Whether the next word begins a line, or there is none. */
 bool reader_at_line_end(struct reader *reader);
+
+/* Whether the deck has used this command before, as far as can be said. */
+bool reader_was_given(const struct reader *reader, const char *name);
+
+/* Whether command `name` was given; reports once in a deck that `word` needs it before. */
+bool reader_needs(struct reader *reader, const struct deck_word *word, const char *name);
+
+/* Whether `name` was reported as missing; then coming too late is no second mistake. */
+bool reader_is_missing(const struct reader *reader, const char *name);
+
+/* Whether a word is a command of the deck, or a word of its load and velo blocks. */
+bool reader_is_keyword(const struct deck_word *word);
+
+/* Runs a command of the deck whose word was taken. */
+void reader_command(struct reader *reader, const struct keyword *row, const struct deck_word *word);
 
 /* Whether a word reads as a whole number; its value goes to *integer. */
 bool reader_is_integer(const struct deck_word *word, long *integer);
@@ -44,11 +73,13 @@ bool reader_is_integer(const struct deck_word *word, long *integer);
 /* Whether a word reads as a real number (spec 1.4: also with d, or without exponent letter). */
 bool reader_is_real(const struct deck_word *word, double *real);
 
-/* Reports an id that is not in 1 ... count; returns whether it is in the range. */
+/* Reports an id that is not in 1 ... count; returns whether it is in the range. When there is
+ * nothing to count the reason was reported before. */
 bool reader_check_id(struct reader *reader, const struct value *value, long count, const char *what);
 
-/* Reports the unknown word with the nearest name, or with what was expected. */
-void reader_unknown(struct reader *reader, const struct deck_word *word, const char *kind, const char *nearest);
+/* Reports the unknown word with the nearest name, or with the `topic` of --help that tells. */
+void reader_unknown(struct reader *reader, const struct deck_word *word, const char *kind, const char *nearest,
+                    const char *topic);
 
 /* Reads the commands of a sub-block until the word `end`. */
 void reader_block(struct reader *reader, const struct keyword *table, const char *end, const char *owner);
@@ -63,7 +94,7 @@ int reader_optional(struct reader *reader, const char *const *names);
 /* Checks that need the whole deck (categories' own files). */
 void reader_finish_general(struct reader *reader, struct deck_place end);
 void reader_finish_grid(struct reader *reader, struct deck_place end);
-void reader_finish_materials(struct reader *reader, struct deck_place end);
+void reader_finish_materials(struct reader *reader);
 void reader_finish_targets(struct reader *reader);
 
 #endif

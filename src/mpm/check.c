@@ -91,7 +91,6 @@ struct instability mpm_check(const struct mpm *mpm)
 double mpm_energy_error(const struct mpm *mpm)
 {
     double energy = mpm->sums.kinetic + mpm->sums.internal + mpm->removed_energy;
-    double expected = mpm->start_energy + mpm->external_work;
     double largest = fmax(fmax(fabs(energy), fabs(mpm->start_energy)), fabs(mpm->external_work));
-    return largest > 0 ? (energy - expected) / largest : 0;
+    return largest > 0 ? mpm->unbalanced / largest : 0;
 }

@@ -22,7 +22,7 @@ struct workspace {
     double strain[6][CHUNK_ROOM], spin[3][CHUNK_ROOM], trace[CHUNK_ROOM];
     double volume_before[CHUNK_ROOM], work[CHUNK_ROOM];
     double copy[24][CHUNK_ROOM]; /* columns of a portion that is not in one piece */
-    double patch[9][PATCH_NODES];
+    double patch[6][PATCH_NODES];
     uint8_t cell[CHUNK_ROOM];
 };
 

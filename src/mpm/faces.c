@@ -140,19 +140,22 @@ static int32_t corner_node(const struct mpm *mpm, const struct face_point *point
     return mpm->cells->blocks[point->block].neighbour[neighbour];
 }
 
-void faces_scatter(struct mpm *mpm)
+void faces_scatter(struct mpm *mpm, int force_field)
 {
     for (size_t f = 0; f < mpm->n_faces; f++) {
         struct face_load *face = &mpm->faces[f];
         for (size_t i = 0; i < face->n_points; i++) {
             struct face_point *point = &face->points[i];
             locate(mpm, face, point);
-            for (int corner = 0; corner < 8 && point->block >= 0; corner++) {
-                int node;
-                int32_t block = corner_node(mpm, point, corner, &node);
+            if (point->block < 0)
+                continue;
+            double(*patch)[PATCH_NODES] = grid_patch(mpm->grid, point->block) + force_field;
+            for (int corner = 0; corner < 8; corner++) {
+                int node = grid_patch_corner(point->cell) + (corner & 1)
+                         + PATCH_EDGE * ((corner >> 1 & 1) + PATCH_EDGE * (corner >> 2));
                 double weight = corner_weight(face, point, corner) * point->area;
                 for (int a = 0; a < 3; a++)
-                    grid_field(mpm->grid, block, NODE_FORCE + a)[node] += weight * face->traction[a];
+                    patch[a][node] += weight * face->traction[a];
             }
         }
     }

@@ -23,6 +23,7 @@ void grid_close(struct grid *grid)
     if (!grid)
         return;
     memory_free(grid->node);
+    memory_free(grid->patch);
     memory_free(grid->fixed);
     memory_free(grid);
 }
@@ -44,6 +45,16 @@ static uint8_t fixed_directions(const struct grid *grid, const int32_t node[3])
     return fixed;
 }
 
+/* An array with room for `needed` numbers; there is nothing to keep between steps. */
+static double *replace(double *array, size_t *capacity, size_t needed)
+{
+    if (needed <= *capacity)
+        return array;
+    memory_free(array);
+    *capacity = 0;
+    return memory_grow(NULL, capacity, needed + needed / 8, sizeof *array, "grid nodes");
+}
+
 void grid_follow(struct grid *grid)
 {
     const struct cell_list *cells = grid->cells;
@@ -51,13 +62,8 @@ void grid_follow(struct grid *grid)
         return;
     grid->version = cells->version;
     size_t blocks = (size_t)cells->n_blocks;
-    if (blocks * NODE_FIELDS * BLOCK_CELLS > grid->node_capacity) { /* nothing to keep between steps */
-        memory_free(grid->node);
-        grid->node = NULL;
-        grid->node_capacity = 0;
-        grid->node = memory_grow(NULL, &grid->node_capacity, (blocks + blocks / 4) * NODE_FIELDS * BLOCK_CELLS,
-                                 sizeof *grid->node, "grid nodes");
-    }
+    grid->node = replace(grid->node, &grid->node_capacity, blocks * NODE_FIELDS * BLOCK_CELLS);
+    grid->patch = replace(grid->patch, &grid->patch_capacity, (size_t)cells->active * PATCH_FIELDS * PATCH_NODES);
     grid->fixed = memory_grow(grid->fixed, &grid->fixed_capacity, blocks * BLOCK_CELLS, 1, "grid nodes");
 #pragma omp parallel for schedule(static)
     for (size_t b = 0; b < blocks; b++)
@@ -67,14 +73,6 @@ void grid_follow(struct grid *grid)
                                at[2] * BLOCK_EDGE + n / (BLOCK_EDGE * BLOCK_EDGE)};
             grid->fixed[b * BLOCK_CELLS + (size_t)n] = fixed_directions(grid, node);
         }
-}
-
-void grid_clear(struct grid *grid, int first, int count)
-{
-    const int32_t blocks = grid->cells->n_blocks;
-#pragma omp parallel for schedule(static)
-    for (int32_t b = 0; b < blocks; b++)
-        memset(grid_field(grid, b, first), 0, (size_t)count * BLOCK_CELLS * sizeof(double));
 }
 
 /* Index of the neighbour dx, dy, dz blocks further up. */
@@ -128,19 +126,33 @@ void grid_read_patch(const struct grid *grid, int32_t block, int first, int coun
     }
 }
 
-THREADS_VECTORISED
-void grid_add_patch(struct grid *grid, int32_t block, int first, int count, double patch[][PATCH_NODES])
+/* Adds to a block's nodes what one of the blocks below it (or itself) has for them. Along an axis
+ * the block itself has nodes 0 ... 3, the one below it its last patch node for node 0. */
+static inline void add_neighbour(double *restrict node, const double *restrict patch, int dx, int dy, int dz)
 {
-    struct patch_row rows[PATCH_EDGE * PATCH_EDGE];
-    int n_rows = find_rows(grid, block, rows);
-    for (int f = 0; f < count; f++) {
-        double *node = grid->node + (size_t)(first + f) * BLOCK_CELLS;
-        for (int r = 0; r < n_rows; r++) {
-            const double *source = patch[f] + rows[r].place;
-            *(four *)(node + rows[r].near) += *(const four *)source;
-            if (rows[r].far != SIZE_MAX)
-                node[rows[r].far] += source[BLOCK_EDGE];
+    int nj = dy ? 1 : BLOCK_EDGE, nk = dz ? 1 : BLOCK_EDGE;
+    const double *corner = patch + BLOCK_EDGE * (dx + PATCH_EDGE * (dy + PATCH_EDGE * dz));
+    for (int k = 0; k < nk; k++)
+        for (int j = 0; j < nj; j++) {
+            double *target = node + BLOCK_EDGE * (j + BLOCK_EDGE * k);
+            const double *source = corner + PATCH_EDGE * (j + PATCH_EDGE * k);
+            if (dx)
+                target[0] += source[0];
+            else
+                *(four *)target += *(const four *)source;
         }
+}
+
+/* Sums the patches' fields 0 ... count-1 into the node fields from `first` of a block. */
+THREADS_VECTORISED
+static void collect(struct grid *grid, int32_t b, int first, int count)
+{
+    memset(grid_field(grid, b, first), 0, (size_t)count * BLOCK_CELLS * sizeof(double));
+    for (int i = 0; i < 8; i++) {
+        int dx = i & 1, dy = i >> 1 & 1, dz = i >> 2;
+        int32_t source = grid->cells->blocks[b].neighbour[(1 - dx) + 3 * (1 - dy) + 9 * (1 - dz)];
+        for (int f = 0; f < count && source >= 0 && source < grid->cells->active; f++)
+            add_neighbour(grid_field(grid, b, first + f), grid_patch(grid, source)[f], dx, dy, dz);
     }
 }
 
@@ -164,12 +176,17 @@ static void integrate_block(struct grid *grid, int32_t b, double step)
     }
 }
 
-void grid_integrate(struct grid *grid, double step)
+/* Fewer blocks than this are not worth a second thread. */
+enum { SHARED_BLOCKS = 32 };
+
+void grid_integrate(struct grid *grid, int first, int count, double step)
 {
     const int32_t blocks = grid->cells->n_blocks;
-#pragma omp parallel for schedule(static)
-    for (int32_t b = 0; b < blocks; b++)
+#pragma omp parallel for schedule(static) if (blocks >= SHARED_BLOCKS)
+    for (int32_t b = 0; b < blocks; b++) {
+        collect(grid, b, first, count);
         integrate_block(grid, b, step);
+    }
 }
 
 THREADS_VECTORISED
@@ -188,15 +205,18 @@ static void straining_block(struct grid *grid, int32_t b, int source)
     }
 }
 
-void grid_straining_velocity(struct grid *grid, int source)
+void grid_straining_velocity(struct grid *grid, int first, int count)
 {
     const int32_t blocks = grid->cells->n_blocks;
-#pragma omp parallel for schedule(static)
-    for (int32_t b = 0; b < blocks; b++)
+    const int source = first == NODE_MASS ? NODE_MOMENTUM : first;
+#pragma omp parallel for schedule(static) if (blocks >= SHARED_BLOCKS)
+    for (int32_t b = 0; b < blocks; b++) {
+        collect(grid, b, first, count);
         straining_block(grid, b, source);
+    }
 }
 
 size_t grid_bytes(const struct grid *grid)
 {
-    return grid->node_capacity * sizeof *grid->node + grid->fixed_capacity;
+    return (grid->node_capacity + grid->patch_capacity) * sizeof *grid->node + grid->fixed_capacity;
 }

@@ -114,10 +114,10 @@ THREADS_INLINE void scatter_block(struct mpm *mpm, int32_t b, bool momentum, boo
                                                                 bool external)
 {
     const struct cell_block *block = &mpm->cells->blocks[b];
-    struct workspace *workspace = &mpm->workspaces[threads_self()];
-    const int first = momentum ? NODE_MASS : NODE_FORCE, fields = 4 * momentum + 3 * force;
+    double(*patch)[PATCH_NODES] = grid_patch(mpm->grid, b);
+    const int fields = 4 * momentum + 3 * force;
     struct chunk chunk = {.block = block};
-    memset(workspace->patch, 0, (size_t)fields * sizeof workspace->patch[0]);
+    memset(patch, 0, (size_t)fields * sizeof patch[0]);
     for (int c = 0; c < BLOCK_CELLS; c++) {
         int32_t from = block->cell_first[c], count = block->cell_first[c + 1] - from;
         if (count == 0)
@@ -130,9 +130,8 @@ THREADS_INLINE void scatter_block(struct mpm *mpm, int32_t b, bool momentum, boo
             cell_low[a] = chunk_cell_low(mpm, &chunk, c, a);
         prefetch_particles(mpm->store, mpm->cells->order[block->first + from], momentum, force);
         scatter_cell(mpm, mpm->cells->order + block->first + from, count, cell_low, sum, momentum, force, external);
-        add_corners(workspace->patch, grid_patch_corner(c), momentum ? sum : sum + 4, fields);
+        add_corners(patch, grid_patch_corner(c), momentum ? sum : sum + 4, fields);
     }
-    grid_add_patch(mpm->grid, b, first, fields, workspace->patch);
 }
 
 THREADS_VECTORISED
@@ -299,8 +298,8 @@ THREADS_INLINE void scatter_new_momentum(const struct chunk *chunk, double *cons
     }
 }
 
-/* The three patches that a block's velocity pass works with. */
-enum { PATCH_VELOCITY = 0, PATCH_ACCELERATION = 3, PATCH_STRAINING = 6 };
+/* Node values that the passes read. */
+enum { PATCH_VELOCITY = 0, PATCH_ACCELERATION = 3, PATCH_STRAINING = 3 };
 
 THREADS_INLINE void velocity_chunk(struct mpm *mpm, struct chunk *chunk, bool moves,
                                                                  bool remaps, bool external)
@@ -321,7 +320,7 @@ THREADS_INLINE void velocity_chunk(struct mpm *mpm, struct chunk *chunk, bool mo
     gather_values(chunk, w->patch + PATCH_ACCELERATION);
     motion_accelerate(mpm, chunk, velocity, mass);
     if (remaps)
-        scatter_new_momentum(chunk, velocity, mass, w->patch + PATCH_STRAINING);
+        scatter_new_momentum(chunk, velocity, mass, grid_patch(mpm->grid, chunk->block_index));
     if (moves) {
         gather_values(chunk, w->patch + PATCH_VELOCITY);
         motion_move(mpm, chunk, position);
@@ -335,11 +334,9 @@ THREADS_INLINE void velocity_block(struct mpm *mpm, int32_t b, bool moves, bool 
     struct chunk chunk = {.block = &mpm->cells->blocks[b], .block_index = b, .workspace = w};
     grid_read_patch(mpm->grid, b, NODE_MOMENTUM, 6, w->patch);
     if (remaps)
-        memset(w->patch[PATCH_STRAINING], 0, 3 * sizeof w->patch[0]);
+        memset(grid_patch(mpm->grid, b), 0, 3 * sizeof w->patch[0]);
     while (chunk_next(mpm, &chunk))
         velocity_chunk(mpm, &chunk, moves, remaps, external);
-    if (remaps)
-        grid_add_patch(mpm->grid, b, NODE_STRAINING, 3, w->patch + PATCH_STRAINING);
 }
 
 THREADS_VECTORISED

@@ -71,6 +71,7 @@ struct mpm {
     double start_energy;
     double external_work;   /* of all forces since the start */
     double removed_energy;  /* by kinetic damping */
+    double unbalanced;      /* energy that is not accounted for, kinetic and internal at one time */
     double previous_kinetic;
     double start_momentum[3];
 };
@@ -102,10 +103,10 @@ double mpm_energy_error(const struct mpm *mpm);
 
 /* --- used by the passes --- */
 
-/* Runs `pass` on all active blocks; colour by colour when it writes to nodes. */
+/* Runs `pass` on all active blocks, shared among the threads. A pass writes only to its block's
+ * particles, patch and sums. */
 typedef void block_pass(struct mpm *mpm, int32_t block);
 void mpm_each_block(struct mpm *mpm, block_pass *pass);
-void mpm_each_block_coloured(struct mpm *mpm, block_pass *pass);
 
 /* Force per particle besides stress (spec 6 C): load, gravity, damping. */
 THREADS_INLINE void mpm_external_force(const struct mpm *mpm, size_t p, double force[3])
@@ -122,7 +123,7 @@ THREADS_INLINE void mpm_external_force(const struct mpm *mpm, size_t p, double f
 /* Face tractions (load face). */
 void faces_open(struct mpm *mpm);
 void faces_close(struct mpm *mpm);
-void faces_scatter(struct mpm *mpm);
+void faces_scatter(struct mpm *mpm, int force_field); /* adds to field force_field + 0, 1, 2 of the patches */
 double faces_work(const struct mpm *mpm); /* after the grid is integrated */
 
 /* What all shape functions do with a portion of particles once the grid's values are in the

@@ -6,26 +6,15 @@
 #include <float.h>
 #include <math.h>
 
-/* Fewer blocks than this a thread are not worth sharing. */
-enum { BLOCKS_PER_THREAD = 4 };
+/* Fewer blocks than this are not worth a second thread. */
+enum { SHARED_BLOCKS = 8 };
 
 void mpm_each_block(struct mpm *mpm, block_pass *pass)
 {
     const int32_t active = mpm->cells->active;
-#pragma omp parallel for schedule(dynamic, 1) if (active >= 2 * BLOCKS_PER_THREAD)
+#pragma omp parallel for schedule(dynamic, 1) if (active >= SHARED_BLOCKS)
     for (int32_t b = 0; b < active; b++)
         pass(mpm, b);
-}
-
-void mpm_each_block_coloured(struct mpm *mpm, block_pass *pass)
-{
-    const struct cell_list *cells = mpm->cells;
-#pragma omp parallel if (cells->active >= 2 * BLOCK_COLOURS * BLOCKS_PER_THREAD)
-    for (int colour = 0; colour < BLOCK_COLOURS; colour++) {
-#pragma omp for schedule(dynamic, 1)
-        for (int32_t i = cells->colour_first[colour]; i < cells->colour_first[colour + 1]; i++)
-            pass(mpm, cells->coloured[i]);
-    }
 }
 
 static void scatter_momentum(struct mpm *mpm, int32_t b)
@@ -43,33 +32,29 @@ static void scatter_all(struct mpm *mpm, int32_t b)
     mpm->shape->scatter(mpm, b, true, true);
 }
 
-/* Steps 1 to 4: mass and momentum to the nodes, boundary conditions, for USF the stress with the
- * nodal velocities before the update, and the nodal forces. Where the stress is not updated in
- * between, momentum and force go to the grid in one pass. */
-static void map_to_grid(struct mpm *mpm)
+/* Steps 1 to 5: mass and momentum to the nodes, boundary conditions, for USF the stress with the
+ * nodal velocities before the update, the nodal forces, and the momentum equation on the nodes.
+ * Where the stress is not updated in between, momentum and force go to the grid in one pass. */
+static void solve_on_grid(struct mpm *mpm)
 {
-    timers_enter(mpm->timers, PHASE_GRID);
-    grid_clear(mpm->grid, NODE_MASS, NODE_FIELDS);
-    timers_enter(mpm->timers, PHASE_SCATTER);
-    if (mpm->scene->scheme != SCHEME_USF) {
-        mpm_each_block_coloured(mpm, scatter_all);
-    } else {
-        mpm_each_block_coloured(mpm, scatter_momentum);
+    const double step = mpm->time_step * mpm->momentum_factor;
+    const bool stress_first = mpm->scene->scheme == SCHEME_USF;
+    if (stress_first) {
+        timers_enter(mpm->timers, PHASE_SCATTER);
+        mpm_each_block(mpm, scatter_momentum);
         timers_enter(mpm->timers, PHASE_GRID);
-        grid_straining_velocity(mpm->grid, NODE_MOMENTUM);
+        grid_straining_velocity(mpm->grid, NODE_MASS, 4);
         timers_enter(mpm->timers, PHASE_STRESS);
         mpm_each_block(mpm, mpm->shape->gather_strain);
-        timers_enter(mpm->timers, PHASE_SCATTER);
-        mpm_each_block_coloured(mpm, scatter_force);
     }
-    faces_scatter(mpm);
-}
-
-/* Step 5: momentum equation on the nodes. */
-static void integrate_momentum(struct mpm *mpm)
-{
+    timers_enter(mpm->timers, PHASE_SCATTER);
+    mpm_each_block(mpm, stress_first ? scatter_force : scatter_all);
+    faces_scatter(mpm, stress_first ? 0 : NODE_FORCE - NODE_MASS);
     timers_enter(mpm->timers, PHASE_GRID);
-    grid_integrate(mpm->grid, mpm->time_step * mpm->momentum_factor);
+    if (stress_first)
+        grid_integrate(mpm->grid, NODE_FORCE, 3, step);
+    else
+        grid_integrate(mpm->grid, NODE_MASS, 7, step);
     mpm->external_work += faces_work(mpm);
 }
 
@@ -78,10 +63,7 @@ static void integrate_momentum(struct mpm *mpm)
 static void update_velocities(struct mpm *mpm)
 {
     timers_enter(mpm->timers, PHASE_VELOCITY);
-    if (mpm->scene->scheme == SCHEME_MUSL)
-        mpm_each_block_coloured(mpm, mpm->shape->gather_velocity);
-    else
-        mpm_each_block(mpm, mpm->shape->gather_velocity);
+    mpm_each_block(mpm, mpm->shape->gather_velocity);
 }
 
 /* Step 8: for USL and MUSL stress and position, with the straining velocities of the scheme. */
@@ -91,7 +73,7 @@ static void update_stress_last(struct mpm *mpm)
         return;
     timers_enter(mpm->timers, PHASE_GRID);
     if (mpm->scene->scheme == SCHEME_MUSL)
-        grid_straining_velocity(mpm->grid, NODE_STRAINING);
+        grid_straining_velocity(mpm->grid, NODE_STRAINING, 3);
     timers_enter(mpm->timers, PHASE_STRESS);
     mpm_each_block(mpm, mpm->shape->gather_strain);
 }
@@ -165,6 +147,16 @@ static void sum_particles(struct mpm *mpm, int32_t blocks)
     mpm->cells->moved += total.moved;
 }
 
+/* Energy that is not accounted for. Velocities belong to the middle of steps: usl and musl have the
+ * internal energy half a step after the kinetic one, usf half a step before it. Both are taken at
+ * the time where the internal energy lies between two kinetic ones. */
+static void balance_energy(struct mpm *mpm, const struct sums *before, double work_before)
+{
+    double kinetic = 0.5 * (before->kinetic + mpm->sums.kinetic);
+    double internal = mpm->scene->scheme == SCHEME_USF ? mpm->sums.internal : before->internal;
+    mpm->unbalanced = kinetic + internal + mpm->removed_energy - mpm->start_energy - work_before;
+}
+
 /* Step size of the next step (spec 5). */
 static double next_time_step(const struct mpm *mpm)
 {
@@ -192,17 +184,19 @@ static void damp_kinetic(struct mpm *mpm)
 void mpm_step(struct mpm *mpm)
 {
     const int32_t blocks = mpm->cells->active, frozen_from = mpm->cells->in_cells;
+    const struct sums before = mpm->sums;
+    const double work_before = mpm->external_work;
     mpm->step++;
     mpm->time += mpm->time_step;
     mpm->momentum_factor = mpm->step == 1 ? 0.5 : 1;
     clear_block_sums(mpm);
-    map_to_grid(mpm);
-    integrate_momentum(mpm);
+    solve_on_grid(mpm);
     update_velocities(mpm);
     update_stress_last(mpm);
     timers_enter(mpm->timers, PHASE_SUMS);
     sum_particles(mpm, blocks);
     add_particles(mpm, frozen_from, mpm->cells->count, &mpm->sums);
+    balance_energy(mpm, &before, work_before);
     discard_grid(mpm);
     timers_enter(mpm->timers, PHASE_SUMS);
     mpm->time_step = next_time_step(mpm);

@@ -39,6 +39,9 @@ bool history_open(struct history *history, const struct scene *scene, const char
         || !open_named(&history->energy, scene, folder, "_energy.dat", "EnergyPlot.dat")
         || !open_named(&history->momentum, scene, folder, "_momentum.dat", "MomentumPlot.dat"))
         return false;
+    /* the reference leaves an empty table where there is no contact */
+    if (scene->bare_names && !open_named(&history->contact, scene, folder, "_contact.dat", "ContforcPlot.dat"))
+        return false;
     write_curve_header(history, scene);
     if (!scene->bare_headers) {
         fprintf(history->energy.stream, "VARIABLES = \"Time\" \"total\" \"kinetic\" \"internal\"\n");
@@ -87,5 +90,6 @@ bool history_close(struct history *history)
     bool curves = table_close(&history->curves);
     bool energy = table_close(&history->energy);
     bool momentum = table_close(&history->momentum);
-    return curves && energy && momentum;
+    bool contact = table_close(&history->contact);
+    return curves && energy && momentum && contact;
 }

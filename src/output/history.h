@@ -12,7 +12,7 @@ struct history_totals {
 };
 
 struct history {
-    struct table curves, energy, momentum;
+    struct table curves, energy, momentum, contact;
 };
 
 /* Creates the files of the scene in `folder` and writes their headers. */

@@ -5,6 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Fewer blocks than this are not worth a second thread. */
+enum { SHARED_BLOCKS = 32 };
+
 /* A particle that looks for its block. */
 struct leaver {
     int32_t particle;
@@ -21,7 +24,7 @@ struct cell_list_rooms {
     int reach;
     int32_t *order_next;
     struct cell_block *blocks_next;
-    size_t blocks_capacity, blocks_next_capacity, changed_capacity, coloured_capacity;
+    size_t blocks_capacity, blocks_next_capacity, changed_capacity;
     int32_t *hash; /* block index + 1, or 0 */
     size_t hash_capacity;
     struct leaver *leavers;
@@ -70,7 +73,6 @@ void cell_list_close(struct cell_list *list)
     memory_free(list->cell);
     memory_free(list->block_changed);
     memory_free(list->blocks);
-    memory_free(list->coloured);
     memory_free(list);
 }
 
@@ -183,48 +185,33 @@ static int by_place(const void *left, const void *right)
     return 0;
 }
 
-/* Adds the blocks around active ones whose nodes their particles reach. */
+/* Place of neighbour i of a block; false when it is no place of the grid's nodes. */
+static bool neighbour_place(const struct cell_list *list, int32_t b, int i, int32_t at[3])
+{
+    const int offset[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+    for (int a = 0; a < 3; a++) {
+        at[a] = list->blocks[b].at[a] + offset[a];
+        if (at[a] < 0 || at[a] > list->frame.cells[a] / BLOCK_EDGE)
+            return false;
+    }
+    return true;
+}
+
+/* Adds the blocks around active ones whose nodes their particles reach, and links neighbours. */
 static void add_surrounding_blocks(struct cell_list *list)
 {
     int low = list->rooms->reach > 0 ? -1 : 0;
+    int32_t at[3];
     for (int32_t b = 0; b < list->active; b++)
         for (int i = 0; i < BLOCK_NEIGHBOURS; i++) {
-            int offset[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
-            int32_t at[3];
-            bool is_reached = true;
-            for (int a = 0; a < 3; a++) {
-                at[a] = list->blocks[b].at[a] + offset[a];
-                is_reached = is_reached && offset[a] >= low && at[a] >= 0 && at[a] <= list->frame.cells[a] / BLOCK_EDGE;
-            }
-            int32_t found = is_reached ? find_block(list, at, list->blocks[b].component) : -1;
-            if (is_reached && found < 0)
-                found = add_block(list, at, list->blocks[b].component);
-            list->blocks[b].neighbour[i] = found;
+            bool is_reached = i % 3 - 1 >= low && i / 3 % 3 - 1 >= low && i / 9 - 1 >= low;
+            if (is_reached && neighbour_place(list, b, i, at) && find_block(list, at, list->blocks[b].component) < 0)
+                add_block(list, at, list->blocks[b].component);
         }
-}
-
-/* Lists the active blocks by the parity of their place. */
-static void colour_blocks(struct cell_list *list)
-{
-    int32_t next[BLOCK_COLOURS] = {0};
-    list->coloured = memory_grow(list->coloured, &list->rooms->coloured_capacity, (size_t)list->active,
-                                 sizeof *list->coloured, "cell blocks");
-    for (int pass = 0; pass < 2; pass++) {
-        for (int32_t b = 0; b < list->active; b++) {
-            const int32_t *at = list->blocks[b].at;
-            int colour = (at[0] & 1) + 2 * (at[1] & 1) + 4 * (at[2] & 1);
-            if (pass == 1)
-                list->coloured[next[colour]] = b;
-            next[colour]++;
-        }
-        int32_t sum = 0;
-        for (int c = 0; c < BLOCK_COLOURS && pass == 0; c++) {
-            list->colour_first[c] = sum;
-            sum += next[c];
-            next[c] = list->colour_first[c];
-        }
-        list->colour_first[BLOCK_COLOURS] = list->active;
-    }
+    for (int32_t b = 0; b < list->n_blocks; b++)
+        for (int i = 0; i < BLOCK_NEIGHBOURS; i++)
+            list->blocks[b].neighbour[i] =
+                neighbour_place(list, b, i, at) ? find_block(list, at, list->blocks[b].component) : -1;
 }
 
 /* Keeps the blocks with particles, sorted by place, and the blocks around them. On return
@@ -262,7 +249,6 @@ static void renumber(struct cell_list *list, size_t n_leavers)
     list->active = list->n_blocks = active;
     hash_all(list);
     add_surrounding_blocks(list);
-    colour_blocks(list);
     list->version++;
 }
 
@@ -361,7 +347,7 @@ static void refill(struct cell_list *list, const struct store *store, size_t n_l
                                   "moving particles");
     group_arrivals(list, n_leavers);
     lay_out(list, renumbered);
-#pragma omp parallel for schedule(dynamic, 8)
+#pragma omp parallel for schedule(dynamic, 8) if (list->active >= SHARED_BLOCKS)
     for (int32_t b = 0; b < list->active; b++) {
         const int32_t *first = rooms->arrivals_first;
         if (list->block_changed[renumbered ? rooms->previous[b] : b] || first[b + 1] > first[b])

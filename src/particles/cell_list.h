@@ -7,7 +7,7 @@
 
 #include "particles/columns.h"
 
-enum { BLOCK_EDGE = 4, BLOCK_CELLS = 64, BLOCK_NEIGHBOURS = 27, BLOCK_COLOURS = 8 };
+enum { BLOCK_EDGE = 4, BLOCK_CELLS = 64, BLOCK_NEIGHBOURS = 27 };
 
 /* Values of cell_list.cell besides 0 ... 63. */
 enum { CELL_LEFT_BLOCK = 254, CELL_NONE = 255 };
@@ -39,8 +39,6 @@ struct cell_list {
     struct cell_block *blocks;
     int32_t active;         /* blocks 0 ... active - 1 hold particles, sorted by place */
     int32_t n_blocks;       /* the others only hold nodes that particles of active blocks reach */
-    int32_t *coloured;      /* active blocks by colour; blocks of one colour share no node */
-    int32_t colour_first[BLOCK_COLOURS + 1];
     long version;           /* counts changes of the set of blocks */
     double moved;           /* particles that changed cell since the last sorting in memory */
     struct cell_list_rooms *rooms; /* private */

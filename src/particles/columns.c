@@ -4,6 +4,9 @@
 
 #include <string.h>
 
+/* Fewer particles than this are not worth a second thread. */
+enum { SHARED_PARTICLES = 50000 };
+
 static const struct column_row rows[COLUMN_COUNT] = {
     [COLUMN_NONE] = {"none", 0, false, NULL, ""},
     [COLUMN_POSITION] = {"position", 3, false, "length", "present position"},
@@ -68,7 +71,7 @@ static void reorder_real(struct store *store, double **values, const int32_t *or
     double *target = store->scratch;
     const double *source = *values;
     const size_t count = store->count;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (count >= SHARED_PARTICLES)
     for (size_t k = 0; k < count; k++)
         target[k] = source[order[k]];
     store->scratch = *values;
@@ -79,7 +82,7 @@ static void reorder_integer(struct store *store, int32_t *values, const int32_t 
 {
     int32_t *target = (int32_t *)(void *)store->scratch;
     const size_t count = store->count;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (count >= SHARED_PARTICLES)
     for (size_t k = 0; k < count; k++)
         target[k] = values[order[k]];
     memcpy(values, target, count * sizeof *values);
@@ -95,7 +98,7 @@ void store_reorder(struct store *store, const int32_t *order)
     }
     const int32_t *id = store->integer[COLUMN_ID];
     const size_t count = store->count;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (count >= SHARED_PARTICLES)
     for (size_t k = 0; k < count; k++)
         store->index_of_id[id[k]] = (int32_t)k;
 }

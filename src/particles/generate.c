@@ -15,6 +15,56 @@ static double lattice_mass(const struct generator *g)
     return g->density * g->spacing * g->spacing * g->spacing;
 }
 
+/* A lattice row of points i = first ... last at base + (i - 1/2) spacing. */
+struct lattice_row {
+    double base, spacing;
+    long first, last;
+};
+
+static double row_distance(const struct lattice_row *row, double centre, long i)
+{
+    double position = row->base + ((double)i - 0.5) * row->spacing;
+    return position - centre;
+}
+
+static bool row_inside(const struct lattice_row *row, double centre, long i, double rest, double radius)
+{
+    double distance = row_distance(row, centre, i);
+    return rest + distance * distance < radius * radius;
+}
+
+/* The first i from low on, at most high, whose inside is `wanted`; inside changes once between. */
+static long row_change(const struct lattice_row *row, double centre, long low, long high, double rest, double radius,
+                       bool wanted)
+{
+    while (low < high) {
+        long middle = low + (high - low) / 2;
+        if (row_inside(row, centre, middle, rest, radius) == wanted)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    return low;
+}
+
+/* Points of a row that are nearer to the centre than radius, `rest` being the square of their
+ * distance in the other directions. They are neighbours, and round-off keeps the order of the
+ * distances, so that bisection finds exactly those that going through all would find. */
+static long row_count(const struct lattice_row *row, double centre, double rest, double radius)
+{
+    long low = row->first, high = row->last + 1;
+    while (low < high) { /* the first point not left of the centre */
+        long middle = low + (high - low) / 2;
+        if (row_distance(row, centre, middle) >= 0)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    long from = row_change(row, centre, row->first, low, rest, radius, true);
+    long to = row_change(row, centre, low, row->last + 1, rest, radius, false);
+    return to - from;
+}
+
 /* --- poin: points given one by one --- */
 
 static double point_candidates(const struct generator *g)
@@ -58,6 +108,21 @@ static void visit_block(const struct generator *g, bool has_hole, generator_visi
             }
 }
 
+/* Counts along the longer side, row by row along the shorter one. */
+static long holed_block_count(const struct generator *g)
+{
+    const double *origin = &g->number[BLOCK_ORIGIN], *numbers = &g->number[BLOCK_NUMBERS], *centre = &g->number[HOLE_CENTRE];
+    int along = numbers[1] > numbers[0], across = 1 - along;
+    struct lattice_row row = {origin[along], g->spacing, 1, (long)numbers[along]};
+    struct lattice_row rows = {origin[across], g->spacing, 1, (long)numbers[across]};
+    long in_layer = 0;
+    for (long j = rows.first; j <= rows.last; j++) {
+        double distance = row_distance(&rows, centre[across], j);
+        in_layer += row.last - row_count(&row, centre[along], distance * distance, g->number[HOLE_RADIUS] * g->spacing);
+    }
+    return in_layer * (long)numbers[2];
+}
+
 static void block_visit(const struct generator *g, generator_visit *visit, void *context)
 {
     visit_block(g, false, visit, context);
@@ -76,6 +141,21 @@ static double sphere_candidates(const struct generator *g)
 {
     double n = 2 * trunc(g->number[SPHERE_RADIUS]);
     return n * n * n;
+}
+
+static long sphere_count(const struct generator *g)
+{
+    long n = (long)g->number[SPHERE_RADIUS], count = 0;
+    double radius = (double)n * g->spacing;
+    const double *centre = &g->number[SPHERE_CENTRE];
+    const struct lattice_row x = {centre[0], g->spacing, 1 - n, n}, y = {centre[1], g->spacing, 1 - n, n},
+                             z = {centre[2], g->spacing, 1 - n, n};
+    for (long i = 1 - n; i <= n; i++)
+        for (long j = 1 - n; j <= n; j++) {
+            double dx = row_distance(&x, centre[0], i), dy = row_distance(&y, centre[1], j);
+            count += row_count(&z, centre[2], dx * dx + dy * dy, radius);
+        }
+    return count;
 }
 
 static void sphere_visit(const struct generator *g, generator_visit *visit, void *context)
@@ -100,6 +180,18 @@ static void sphere_visit(const struct generator *g, generator_visit *visit, void
 static double disc_candidates(const struct generator *g)
 {
     return 4 * g->number[SPHERE_RADIUS] * g->number[SPHERE_RADIUS];
+}
+
+static long disc_count(const struct generator *g)
+{
+    long n = (long)g->number[SPHERE_RADIUS], count = 0;
+    const double *centre = &g->number[SPHERE_CENTRE];
+    const struct lattice_row x = {centre[0], g->spacing, 1 - n, n}, y = {centre[1], g->spacing, 1 - n, n};
+    for (long i = 1 - n; i <= n; i++) {
+        double dx = row_distance(&x, centre[0], i);
+        count += row_count(&y, centre[1], dx * dx, (double)n * g->spacing);
+    }
+    return count;
 }
 
 static void disc_visit(const struct generator *g, generator_visit *visit, void *context)
@@ -127,6 +219,8 @@ static void cylinder_numbers(const struct generator *g, double *across, double *
 {
     *across = ceil(g->number[CYLINDER_RADIUS] / g->spacing);
     *along = floor(g->number[CYLINDER_HEIGHT] / g->spacing + 0.5 - 1e-9);
+    if (*along < 1) /* no layer: however wide it is */
+        *across = *along = 0;
 }
 
 static double cylinder_candidates(const struct generator *g)
@@ -134,6 +228,19 @@ static double cylinder_candidates(const struct generator *g)
     double across, along;
     cylinder_numbers(g, &across, &along);
     return 4 * across * across * along;
+}
+
+static long cylinder_count(const struct generator *g)
+{
+    double across, along;
+    cylinder_numbers(g, &across, &along);
+    long n = (long)across, in_layer = 0;
+    const struct lattice_row row = {0, g->spacing, 1 - n, n};
+    for (long j = 1 - n; j <= n; j++) {
+        double dv = row_distance(&row, 0, j);
+        in_layer += row_count(&row, 0, dv * dv, g->number[CYLINDER_RADIUS]);
+    }
+    return in_layer * (long)along;
 }
 
 static void cylinder_visit(const struct generator *g, generator_visit *visit, void *context)
@@ -159,27 +266,27 @@ static void cylinder_visit(const struct generator *g, generator_visit *visit, vo
 }
 
 static const struct generator_row rows[] = {
-    {"poin", "point", "points one by one: n times `id material mass x y z`", NULL, point_candidates, point_visit},
+    {"poin", "point", "points one by one: n times `id material mass x y z`", NULL, point_candidates, 1, NULL, point_visit},
     {"bloc", "block", "block of nx x ny x nz points from its corner, x fastest",
      (const struct argument[]){MATERIAL, DENSITY, SPACING, LENGTH("x0"), LENGTH("y0"), LENGTH("z0"), COUNT("nx"),
                                COUNT("ny"), COUNT("nz"), {0}},
-     block_candidates, block_visit},
+     block_candidates, 1, NULL, block_visit},
     {"sphe", "sphere", "sphere of nr points in the radius about its centre, x slowest",
      (const struct argument[]){MATERIAL, DENSITY, SPACING, LENGTH("xc"), LENGTH("yc"), LENGTH("zc"),
                                {"nr", NULL, ARGUMENT_REAL, LIMIT_AT_LEAST_ONE}, {0}},
-     sphere_candidates, sphere_visit},
+     sphere_candidates, 4, sphere_count, sphere_visit},
     {"blod", "blod", "block with a round hole along z of nr points in the radius, x fastest",
      (const struct argument[]){MATERIAL, DENSITY, SPACING, LENGTH("x0"), LENGTH("y0"), LENGTH("z0"), COUNT("nx"),
                                COUNT("ny"), COUNT("nz"), LENGTH("xh"), LENGTH("yh"), LENGTH("zh"), COUNT("nr"), {0}},
-     block_candidates, holed_block_visit},
+     block_candidates, 64, holed_block_count, holed_block_visit},
     {"cicl", "cicl", "disc one layer thick, nr points in the radius, x slowest",
      (const struct argument[]){MATERIAL, DENSITY, SPACING, LENGTH("xc"), LENGTH("yc"), LENGTH("z0"), COUNT("nr"), {0}},
-     disc_candidates, disc_visit},
+     disc_candidates, 4, disc_count, disc_visit},
     {"cyli", "cylinder", "cylinder along axis (1 x, 2 y, 3 z, or the letter) from the centre of its base, axis slowest",
      (const struct argument[]){MATERIAL, DENSITY, SPACING, {"axis", NULL, ARGUMENT_WORD, LIMIT_NONE}, LENGTH("xb"),
                                LENGTH("yb"), LENGTH("zb"), {"radius", "length", ARGUMENT_REAL, LIMIT_POSITIVE},
                                {"height", "length", ARGUMENT_REAL, LIMIT_POSITIVE}, {0}},
-     cylinder_candidates, cylinder_visit},
+     cylinder_candidates, 4, cylinder_count, cylinder_visit},
 };
 
 const struct generator_row *generator_rows(int *count)
@@ -196,16 +303,8 @@ const struct generator_row *generator_find(const char *name)
     return NULL;
 }
 
-static void count_point(void *context, const double position[3], double mass)
-{
-    (void)position;
-    (void)mass;
-    ++*(long *)context;
-}
-
 long generator_count(const struct generator *generator)
 {
-    long count = 0;
-    generator->row->visit(generator, count_point, &count);
-    return count;
+    const struct generator_row *row = generator->row;
+    return row->count ? row->count(generator) : (long)row->candidates(generator);
 }

@@ -40,6 +40,8 @@ struct generator_row {
     const struct argument *arguments; /* material, density, spacing first; NULL for the point list */
     /* Upper bound of the lattice points looked at, so that absurd sizes are refused early. */
     double (*candidates)(const struct generator *generator);
+    double sparsity; /* lattice points looked at for each one kept, at most, except for a few bodies */
+    long (*count)(const struct generator *generator); /* of the points kept; NULL: all candidates are */
     void (*visit)(const struct generator *generator, generator_visit *visit, void *context);
 };
 

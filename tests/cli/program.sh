@@ -1,0 +1,152 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The program as a user runs it: exit codes, messages, files. sh tests/cli/program.sh BUILD
+build=$(cd "$1" && pwd) || exit 2
+mpm3d=$build/mpm3d
+folder=$(mktemp -d) || exit 2
+trap 'rm -rf "$folder"' EXIT INT TERM
+cd "$folder" || exit 2
+failures=0
+
+# expect NAME STATUS PATTERN COMMAND...: exit status and a pattern in what it prints
+expect() {
+    name=$1 status=$2 pattern=$3; shift 3
+    "$@" >printed 2>&1
+    found=$?
+    if [ "$found" -ne "$status" ]; then
+        echo "FAIL $name: exit status $found instead of $status"; sed 's/^/    /' printed | head -n 20; failures=1
+    elif ! grep -q -e "$pattern" printed; then
+        echo "FAIL $name: no '$pattern' in what it prints"; sed 's/^/    /' printed | head -n 20; failures=1
+    else
+        echo "ok $name"
+    fi
+}
+
+# check NAME COMMAND...: the command must succeed
+check() {
+    name=$1; shift
+    if "$@" >printed 2>&1; then echo "ok $name"; else echo "FAIL $name"; sed 's/^/    /' printed | head -n 20; failures=1; fi
+}
+
+# deck END_TIME EXTRA...: an elastic block of 64 points; the extra lines go before the end
+deck() {
+    cat <<END
+mpm3d block
+nbco 1, nbbo 1
+nbmp 64
+nmat 1
+grid 0 8 0 8 0 8
+dcell 1
+endt $1
+mate
+1 elas 1 1 0.3
+part bloc 1
+1 1 0.5 2 2 2 4 4 4
+tecp
+outr velx
+curv velx 1
+velo
+body 1 0.01 0 0
+endv
+END
+    shift
+    for line in "$@"; do printf '%s\n' "$line"; done
+    echo endi
+}
+
+deck 1 >good.mpm
+expect "no deck" 1 "no deck given" "$mpm3d"
+expect "unknown option" 1 "unknown option '--fast'" "$mpm3d" --fast good.mpm
+expect "two decks" 1 "more than one deck" "$mpm3d" good.mpm good.mpm
+expect "no number of threads" 1 "not a number of threads" "$mpm3d" --threads none good.mpm
+expect "zero threads" 1 "not a number of threads" "$mpm3d" --threads 0 good.mpm
+expect "option without value" 1 "has to follow '-o'" "$mpm3d" good.mpm -o
+expect "version" 0 "^mpm3d [0-9]" "$mpm3d" --version
+expect "help" 0 "Background grid" "$mpm3d" --help
+expect "help of a word" 0 "boundary codes" "$mpm3d" --help fixed
+expect "help of a law" 0 "tangent *number, stress, 0 or more" "$mpm3d" --help pla2
+expect "help of a result" 0 "von Mises" "$mpm3d" --help seqv
+expect "help of a generator" 0 "radius *number, length, greater than 0" "$mpm3d" --help cyli
+expect "help of a misspelt word" 1 "did you mean 'dcel'" "$mpm3d" --help dcll
+expect "missing deck" 4 "cannot read 'none.mpm': No such file" "$mpm3d" none.mpm
+expect "folder as deck" 4 "cannot read '.': Is a directory" "$mpm3d" .
+expect "check" 0 "64 particles in 1 bodies" "$mpm3d" --check good.mpm
+check "check writes no file" test ! -e good.out
+expect "run" 0 "no particle lost" "$mpm3d" good.mpm
+for file in good.out good_anim.dat good_curv.dat good_energy.dat good_momentum.dat; do
+    check "writes $file" test -s "$file"
+done
+expect "deck name without .mpm" 0 "no particle lost" "$mpm3d" good
+check "quiet run" sh -c '"$1" --quiet good.mpm >said 2>&1 && ! test -s said' - "$mpm3d"
+check "data does not go to the terminal" sh -c '"$1" good.mpm 2>/dev/null >said && ! test -s said' - "$mpm3d"
+expect "deck in a folder with a dot" 0 "no particle lost" sh -c 'mkdir -p a.b && cp good.mpm a.b/x.y.mpm && "$1" ./a.b/x.y.mpm && test -s x.y_anim.dat' - "$mpm3d"
+expect "standard input" 0 "no particle lost" sh -c '"$1" - <good.mpm && cmp stdin_anim.dat good_anim.dat' - "$mpm3d"
+expect "output folder" 0 "no particle lost" sh -c '"$1" -o new good.mpm && cmp new/good_anim.dat good_anim.dat' - "$mpm3d"
+expect "output folder in a missing one" 4 "cannot create the folder" "$mpm3d" -o none/new good.mpm
+expect "output folder that is a file" 4 "cannot create" "$mpm3d" -o good.mpm good.mpm
+
+# the log starts with a deck that gives the same run
+sed -n '2,/^endi/p' good.out >again.mpm
+expect "the log's deck can be run" 0 "no particle lost" "$mpm3d" again.mpm
+check "the log's deck gives the same" cmp again_anim.dat good_anim.dat
+
+deck 1 "names mpm3d" "head mpm3d" "digits 4" >bare.mpm
+expect "bare names" 0 "no particle lost" "$mpm3d" bare.mpm
+check "EnergyPlot.dat" test -s EnergyPlot.dat
+check "MomentumPlot.dat" test -s MomentumPlot.dat
+check "ContforcPlot.dat is there, empty" sh -c 'test -e ContforcPlot.dat && ! test -s ContforcPlot.dat'
+check "E12.4 numbers" grep -q '^  0.2250E+01  0.2250E+01  0.2250E+01  1  0.1000E-01$' bare_anim.dat
+check "bare zone" grep -q '^ZONE T="time  0.000E+00"$' bare_anim.dat
+check "bare curve header" grep -q '^Time engk1       engi1       velx1       $' bare_curv.dat
+check "tecdiff reads both styles" "$build/tecdiff" -r 1e-3 bare_anim.dat good_anim.dat
+
+# a full disk, a folder that can't be written
+mkdir -p full && ln -sf /dev/full full/good_anim.dat
+if [ -e /dev/full ]; then
+    expect "full disk" 4 "cannot write 'full/good_anim.dat': No space" "$mpm3d" -o full good.mpm
+    mkdir -p full2 && ln -sf /dev/full full2/good_energy.dat
+    expect "full disk, energies" 4 "cannot write 'full2/good_energy.dat': No space" "$mpm3d" -o full2 good.mpm
+fi
+
+# signals: the run ends after its step, with a summary
+deck 1e9 "outt 1e8" "sort off" >long.mpm
+sh -c '"$1" long.mpm 2>said & pid=$!; sleep 1; kill -INT $pid; wait $pid; echo $? >status' - "$mpm3d"
+check "SIGINT ends with status 130" sh -c 'cat status said; test "$(cat status)" = 130'
+check "SIGINT leaves a summary" grep -q "interrupted after [0-9]* steps" said
+check "SIGINT leaves whole files" "$build/tecstat" long_energy.dat count
+sh -c '"$1" long.mpm 2>said & pid=$!; sleep 1; kill -TERM $pid; wait $pid; echo $? >status' - "$mpm3d"
+check "SIGTERM ends with status 130" sh -c 'test "$(cat status)" = 130'
+
+# extreme scenes: right, or stopped with step, time and particle
+deck 100 "dtsc 2.5" "velo" "node 1 0.1 0.05 0" "endv" >unstable.mpm
+expect "dtsc 2.5" 3 "unstable at step [0-9]*, time [0-9.E+-]*: " "$mpm3d" unstable.mpm
+expect "dtsc 2.5 names the particle" 3 "particle [0-9]* of body 1 at" "$mpm3d" unstable.mpm
+check "the last good output is kept" "$build/tecstat" unstable_anim.dat max velx
+deck 200 "velo" "body 1 0.5 0.3 0.2" "endv" >leaves.mpm
+expect "body leaves the grid" 0 "64 particles left the grid and are frozen (first ids:" "$mpm3d" leaves.mpm
+
+# points FILE LINES...: a deck of single points of mass 1/8
+points() {
+    n=$(($#))
+    printf 'mpm3d points\nnbco 1\nnbbo 1\nnbmp %d\nnmat 1\ngrid 0 4 0 4 0 4\ndcell 1\nendt 1\nfixe 2 2 2 2 2 2\nmate\n1 elas 1 1 0.3\n' $n
+    printf 'part poin 1 %d\n' $n
+    i=0
+    for point in "$@"; do i=$((i + 1)); echo "$i 1 0.125 $point"; done
+    printf 'tecp\noutr velx outr vely\nvelo\nbody 1 0.125 0.0625 0\nendv\nendi\n'
+}
+points "1.5 1.5 1.5" >one.mpm
+expect "a body of one point" 0 "no particle lost" "$mpm3d" one.mpm
+check "it keeps its velocity" sh -c 'test "$("$1/tecstat" one_anim.dat first velx)" = 0.125' - "$build"
+points "2 1.5 1.5" "2 2 1.5" "2 2 2" >nodes.mpm
+expect "points on a face, an edge, a node" 0 "no particle lost" "$mpm3d" nodes.mpm
+points "4 1.5 1.5" "1 1 1" >upper.mpm
+expect "a point on the upper face of the grid" 0 "no particle lost" "$mpm3d" upper.mpm
+check "it is held by the face" sh -c 'test "$("$1/tecstat" upper_anim.dat first X)" = 4' - "$build"
+points "9 9 9" "1.5 1.5 1.5" >outside.mpm
+expect "a point outside the grid" 0 "1 particles left the grid and are frozen (first ids: 1)" "$mpm3d" outside.mpm
+check "it is not in later output" sh -c 'test "$("$1/tecstat" outside_anim.dat count)" = 1' - "$build"
+points "9 9 9" >nothing.mpm
+expect "no point in the grid" 0 "1 particles left the grid" "$mpm3d" nothing.mpm
+points "1.0000000000001 1.5 1.5" "0.9999999999999 1.5 1.5" >tiny.mpm
+expect "nodes of nearly no mass" 0 "no particle lost" "$mpm3d" tiny.mpm
+exit $failures
