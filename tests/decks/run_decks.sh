@@ -3,7 +3,7 @@
 # Runs the decks of numbers.table and compares what they give: sh tests/decks/run_decks.sh BUILD
 # A line of the table: DECK | FILE ENDING | tecstat's words | expected | tolerance | where it comes from
 # The tolerance is relative, or absolute with an `a` behind it.
-build=$1
+build=$(cd "$1" && pwd) || exit 2
 here=$(dirname "$0")
 folder=$(mktemp -d) || exit 2
 trap 'rm -rf "$folder"' EXIT INT TERM
