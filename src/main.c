@@ -92,6 +92,7 @@ static bool set_thread_count(const char *text)
 int main(int count, char **arguments)
 {
     struct run_options options = {.folder = ""};
+    threads_wait_briefly(arguments);
     for (int i = 1; i < count; i++) {
         const char *word = arguments[i];
         const char *value = i + 1 < count ? arguments[i + 1] : NULL;

@@ -2,7 +2,9 @@
 #define _POSIX_C_SOURCE 200809L
 #include "base/threads.h"
 
+#include <stdlib.h>
 #include <time.h>
+#include <unistd.h>
 #ifdef _OPENMP
 #include <omp.h>
 #endif
@@ -33,6 +35,14 @@ int threads_self(void)
 #else
     return 0;
 #endif
+}
+
+void threads_wait_briefly(char **arguments)
+{
+    if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT") || getenv("KMP_BLOCKTIME"))
+        return;
+    if (setenv("GOMP_SPINCOUNT", "1000", 1) == 0 && setenv("KMP_BLOCKTIME", "0", 1) == 0)
+        execv("/proc/self/exe", arguments); /* where that is not possible, the run goes on as it is */
 }
 
 double threads_clock(void)

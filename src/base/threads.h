@@ -15,6 +15,12 @@ int threads_self(void);
 /* Seconds of wall time since some fixed moment. */
 double threads_clock(void);
 
+/* Makes threads that wait for each other go to sleep soon. OpenMP's default is to spin for
+ * milliseconds, which on a machine with other work to do costs a factor of ten and more. Both
+ * runtimes only look at the environment when they are loaded: where it does not say how to wait,
+ * the program says so there and starts itself anew. To be called first in main. */
+void threads_wait_briefly(char **arguments);
+
 /* Hot loops over small vectors are compiled once for plain processors and once for AVX2, and
  * the faster fitting one is picked when the program is loaded. Products and sums are never
  * contracted (-ffp-contract=off), so both give the same bits. Clang's clones (up to 14 at least)

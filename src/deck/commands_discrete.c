@@ -229,36 +229,44 @@ static bool read_generator(struct reader *reader, struct generator *generator, c
         return false;
     }
     if (!generator->row->arguments)
-        return reader_check_id(reader, &values[1], reader->scene->components, "component")
-            && read_points(reader, generator);
-    return !lacks_component(reader, generator, values)
-        && reader_check_id(reader, &values[1], reader->scene->components, "component")
-        && read_lattice(reader, generator);
+        return read_points(reader, generator);
+    return !lacks_component(reader, generator, values) && read_lattice(reader, generator);
+}
+
+static void add_body(struct reader *reader, struct scene_body *body)
+{
+    struct scene *scene = reader->scene;
+    body->first = scene->n_particles;
+    body->has_plot_box = reader->has_plot_box;
+    memcpy(body->plot_box, reader->plot_box, sizeof body->plot_box);
+    scene->n_particles += body->count;
+    scene->bodies = memory_grow(scene->bodies, &scene->bodies_capacity, scene->n_bodies + 1, sizeof *body, "bodies");
+    scene->bodies[scene->n_bodies++] = *body;
 }
 
 /* A body that can't be read keeps its place, so that the numbers of the others are right. */
+static void fail_part(struct reader *reader, const struct deck_word *word)
+{
+    struct scene_body body = {.place = word->place};
+    reader->has_bad_part = true;
+    add_body(reader, &body);
+    reader_skip_numbers(reader);
+}
+
 static void read_part(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
-    struct scene *scene = reader->scene;
-    struct scene_body body = {.place = word->place, .component = (int)values[1].integer - 1};
+    struct scene_body body = {.place = word->place, .component = (int)values[1].integer - 1,
+                              .component_place = values[1].word.place};
     bool may_come = part_may_come(reader, word);
-    bool good = read_generator(reader, &body.generator, values);
-    if (!good)
-        reader_skip_numbers(reader);
-    if (!good || !may_come || !count_points(reader, &body)) {
-        reader->has_bad_part = true;
+    bool is_read = read_generator(reader, &body.generator, values);
+    if (!may_come || !is_read || !count_points(reader, &body)) {
         memory_free(body.generator.points);
-        body.generator = (struct generator){0};
-        body.count = 0;
-    } else if (body.count == 0) {
-        diagnostics_warning(reader->diagnostics, word->place, "this body has no particle");
+        fail_part(reader, word);
+        return;
     }
-    body.first = scene->n_particles;
-    body.has_plot_box = reader->has_plot_box;
-    memcpy(body.plot_box, reader->plot_box, sizeof body.plot_box);
-    scene->n_particles += body.count;
-    scene->bodies = memory_grow(scene->bodies, &scene->bodies_capacity, scene->n_bodies + 1, sizeof body, "bodies");
-    scene->bodies[scene->n_bodies++] = body;
+    if (body.count == 0)
+        diagnostics_warning(reader->diagnostics, word->place, "this body has no particle");
+    add_body(reader, &body);
 }
 
 static void read_plot_box(struct reader *reader, const struct deck_word *word, const struct value *values)
@@ -275,7 +283,7 @@ const struct keyword discrete_keywords[] = {
     {.name = "part", .long_name = "particle",
      .arguments = (const struct argument[]){{"generator", NULL, ARGUMENT_WORD, LIMIT_NONE},
                                             {"component", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
-     .apply = read_part, .doc = "a body: its generator, component and numbers; after nbbo, nbmp, mate",
+     .apply = read_part, .fail = fail_part, .doc = "a body: its generator, component and numbers; after nbbo, nbmp, mate",
      .details = "part generator component\n  arguments of the generator\nThe generators:"},
     {.name = "pt2d",
      .arguments = (const struct argument[]){LENGTH("x0"), LENGTH("x1"), LENGTH("y0"), LENGTH("y1"), LENGTH("z0"),

@@ -11,6 +11,7 @@ enum { MOST_FILES = 10000, MOST_DEPTH = 100, MOST_MATERIALS = 100000 };
 static void read_title(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     (void)values;
+    reader->command = NULL; /* a number on the next line is none too many for the title */
     memory_free(reader->scene->title);
     reader->scene->title = text_rest_of_line(reader->text, word);
 }
@@ -69,7 +70,7 @@ static const char *include(struct reader *reader, const char *path)
     if (text_is_open(reader->text, path))
         return "the file includes itself";
     if (text_depth(reader->text) > MOST_DEPTH)
-        return "includes inside includes; does one include itself?";
+        return "too many includes inside includes";
     if (text_file_count(reader->text) > MOST_FILES)
         return "too many included files";
     if (*path == '\0' || path[strlen(path) - 1] == '/')
@@ -80,9 +81,15 @@ static const char *include(struct reader *reader, const char *path)
     return failure ? strerror(failure) : NULL;
 }
 
-static void read_include(struct reader *reader, const struct deck_word *word, const struct value *values)
+/* What an unread file holds is not known. */
+static void fail_include(struct reader *reader, const struct deck_word *word)
 {
     (void)word;
+    reader->is_partial = true;
+}
+
+static void read_include(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
     const struct deck_word *file = &values[0].word;
     const char *name = file->text;
     size_t length = file->length;
@@ -94,7 +101,7 @@ static void read_include(struct reader *reader, const struct deck_word *word, co
     const char *wrong = include(reader, path);
     if (wrong) {
         diagnostics_error(reader->diagnostics, file->place, "cannot include '%s': %s", path, wrong);
-        reader->is_partial = true;
+        fail_include(reader, word);
     }
     memory_free(path);
 }
@@ -114,6 +121,7 @@ const struct keyword general_keywords[] = {
      .doc = "number of materials; before mate"},
     {.name = "incl", .long_name = "include",
      .arguments = (const struct argument[]){{"file", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}}, .apply = read_include,
+     .fail = fail_include,
      .doc = "reads another file here; its path is seen from this deck's folder, in quotes if it has blanks"},
     {.name = "endi", .long_name = "endinput", .apply = read_end, .doc = "end of the deck; what follows is ignored"},
     {0}};
@@ -122,7 +130,7 @@ void reader_finish_general(struct reader *reader, struct deck_place end)
 {
     struct scene *scene = reader->scene;
     if (scene->n_bodies == 0 && !reader_was_given(reader, "part"))
-        diagnostics_error(reader->diagnostics, end, "the deck has no particles; expected a 'part' block");
+        diagnostics_lack(reader->diagnostics, end, "the deck has no particles; expected a 'part' block");
     else if (scene->n_particles == 0 && !reader->has_bad_part)
         diagnostics_error(reader->diagnostics, scene->bodies[0].place, "the bodies of this deck hold no particle");
     if (!scene->title)

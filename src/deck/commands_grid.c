@@ -9,6 +9,12 @@
 #define LENGTH(name) {name, "length", ARGUMENT_REAL, LIMIT_NONE}
 #define CODE(name) {name, NULL, ARGUMENT_INTEGER, LIMIT_BOUNDARY}
 
+static void read_cell_size(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    reader->cell_place = values[0].word.place;
+}
+
 static void read_grid(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     (void)word;
@@ -47,7 +53,7 @@ const struct keyword grid_keywords[] = {
      .field = offsetof(struct scene, grid[4]), .apply = read_span_z, .doc = "extent of the grid along z"},
     {.name = "dcel", .long_name = "dcell",
      .arguments = (const struct argument[]){{"size", "length", ARGUMENT_REAL, LIMIT_POSITIVE}, {0}},
-     .field = offsetof(struct scene, cell_size),
+     .field = offsetof(struct scene, cell_size), .apply = read_cell_size,
      .doc = "cell size; before mate, else the nodal mass cutoff is zero"},
     {.name = "fixe", .long_name = "fixed",
      .arguments = (const struct argument[]){CODE("x-"), CODE("x+"), CODE("y-"), CODE("y+"), CODE("z-"), CODE("z+"), {0}},
@@ -55,38 +61,64 @@ const struct keyword grid_keywords[] = {
      .doc = "boundary codes of the six faces: 0 free, 1 fixed, 2 normal component fixed"},
     {0}};
 
-/* Checks the extent and number of cells along one axis. */
-static void check_span(struct reader *reader, int axis)
+static double cells_along(const struct scene *scene, int axis)
+{
+    return trunc((scene->grid[2 * axis + 1] - scene->grid[2 * axis]) / scene->cell_size + 0.5);
+}
+
+/* Checks the extent along one axis, where it was read. */
+static bool check_span(struct reader *reader, int axis)
+{
+    double low = reader->scene->grid[2 * axis], high = reader->scene->grid[2 * axis + 1];
+    if (reader->span_place[axis].line == 0)
+        return false;
+    if (high > low)
+        return true;
+    diagnostics_error(reader->diagnostics, reader->span_place[axis],
+                      "the grid has no extent along %c: it goes from %g to %g", "xyz"[axis], low, high);
+    return false;
+}
+
+/* Checks the number of cells. Where it is wrong along all axes, the cell size is to blame. */
+static void check_cells(struct reader *reader)
 {
     const struct scene *scene = reader->scene;
-    const struct deck_place place = reader->span_place[axis];
-    double low = scene->grid[2 * axis], high = scene->grid[2 * axis + 1];
-    double cells = trunc((high - low) / scene->cell_size + 0.5);
-    if (place.line == 0) /* not read: its mistake is reported */
-        return;
-    if (!(high > low))
-        diagnostics_error(reader->diagnostics, place, "the grid has no extent along %c: it goes from %g to %g",
-                          "xyz"[axis], low, high);
-    else if (scene->cell_size > 0 && !(cells >= 1 && cells < INT_MAX - 8))
-        diagnostics_error(reader->diagnostics, place, "the grid has %g cells of size %g along %c; expected 1 to %d",
-                          cells, scene->cell_size, "xyz"[axis], INT_MAX - 9);
+    bool good[3];
+    for (int a = 0; a < 3; a++)
+        good[a] = cells_along(scene, a) >= 1 && cells_along(scene, a) < INT_MAX - 8;
+    bool all_wrong = !good[0] && !good[1] && !good[2];
+    for (int a = 0; a < (all_wrong ? 1 : 3); a++)
+        if (!good[a])
+            diagnostics_error(reader->diagnostics, all_wrong ? reader->cell_place : reader->span_place[a],
+                              "the grid has %g cells of size %g along %c; expected 1 to %d", cells_along(scene, a),
+                              scene->cell_size, "xyz"[a], INT_MAX - 9);
+}
+
+/* Reports each axis without an extent, or all at once. */
+static bool check_given(struct reader *reader, struct deck_place end)
+{
+    static const char *const names[] = {"spx", "spy", "spz"};
+    int given = 0;
+    if (reader_was_given(reader, "grid"))
+        return true;
+    for (int a = 0; a < 3; a++)
+        given += reader_was_given(reader, names[a]);
+    if (given == 0)
+        diagnostics_lack(reader->diagnostics, end, "the extents of the grid are not given; expected 'grid'");
+    for (int a = 0; a < 3; a++)
+        if (given > 0 && !reader_was_given(reader, names[a]))
+            diagnostics_lack(reader->diagnostics, end, "the extent of the grid along %c is not given; expected '%s'",
+                             "xyz"[a], names[a]);
+    return given == 3;
 }
 
 void reader_finish_grid(struct reader *reader, struct deck_place end)
 {
-    static const char *const spans[] = {"spx", "spy", "spz"};
-    bool has_grid = reader_was_given(reader, "grid");
-    int given = 0;
     if (!reader_was_given(reader, "dcel"))
-        diagnostics_error(reader->diagnostics, end, "the cell size is not given; expected 'dcel'");
+        diagnostics_lack(reader->diagnostics, end, "the cell size is not given; expected 'dcel'");
+    bool good = check_given(reader, end);
     for (int a = 0; a < 3; a++)
-        given += has_grid || reader_was_given(reader, spans[a]);
-    if (given == 0)
-        diagnostics_error(reader->diagnostics, end, "the extents of the grid are not given; expected 'grid'");
-    for (int a = 0; a < 3; a++)
-        if (given > 0 && !has_grid && !reader_was_given(reader, spans[a]))
-            diagnostics_error(reader->diagnostics, end, "the extent of the grid along %c is not given; expected '%s'",
-                              "xyz"[a], spans[a]);
-        else
-            check_span(reader, a);
+        good = check_span(reader, a) && good;
+    if (good && reader->cell_place.line > 0)
+        check_cells(reader);
 }

@@ -156,10 +156,16 @@ static void check_particle(struct reader *reader, long particle, struct deck_pla
                           reader->scene->n_particles);
 }
 
-/* Particle targets were checked against nbmp; the deck may have created fewer. */
+/* Particle targets were checked against nbmp; the deck may have created fewer. Components could
+ * not be checked, as nbco may come last. */
 void reader_finish_targets(struct reader *reader)
 {
     const struct scene *scene = reader->scene;
+    for (size_t b = 0; b < scene->n_bodies; b++)
+        if (scene->bodies[b].component >= scene->components)
+            diagnostics_error(reader->diagnostics, scene->bodies[b].component_place,
+                              "component %d does not exist; expected 1 to %ld", scene->bodies[b].component + 1,
+                              scene->components);
     if (reader->has_bad_part || scene->n_particles == 0)
         return;
     for (size_t i = 0; i < scene->n_loads; i++)

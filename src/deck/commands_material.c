@@ -103,6 +103,8 @@ static long read_material(struct reader *reader, bool has_ended)
     struct scene *scene = reader->scene;
     struct scene_material nowhere = {0}, *entry = &nowhere;
     struct value id = {0};
+    struct deck_word next;
+    double real;
     char text[40];
     bool good = false;
     text_peek(reader->text, &id.word);
@@ -123,7 +125,8 @@ static long read_material(struct reader *reader, bool has_ended)
     }
     if (good)
         entry = material_at(scene, (size_t)id.integer - 1);
-    entry->is_given = read_law(reader, entry);
+    if (good || (text_peek(reader->text, &next) && !reader_is_real(&next, &real)))
+        entry->is_given = read_law(reader, entry);
     if (good && entry->is_given)
         return id.integer;
     reader->has_bad_material = true;
@@ -165,6 +168,7 @@ static void set_mass_cutoff(struct scene *scene)
     double sum = 0, size = scene->cell_size;
     for (size_t i = 0; i < scene->n_materials; i++)
         sum += scene->materials[i].material.density;
+    scene->cutoff_cell_size = size;
     if (scene->materials_declared > 0)
         scene->mass_cutoff = 1e-5 * sum / (double)scene->materials_declared * size * size * size;
 }

@@ -52,8 +52,12 @@ static void read_rotation(struct reader *reader, const struct deck_word *word, c
         reader->scene->rotation = ROTATION_EXACT;
         return;
     }
-    int on = reader_switch(reader, &values[0], "jaum");
-    if (on >= 0)
+    char shown[40];
+    text_show(&values[0].word, shown, sizeof shown);
+    int on = strcasecmp(shown, "on") == 0 ? 1 : strcasecmp(shown, "off") == 0 ? 0 : -1;
+    if (on < 0)
+        diagnostics_error(reader->diagnostics, values[0].word.place, "jaum must be on, off or exact, not '%s'", shown);
+    else
         reader->scene->rotation = on ? ROTATION_EXPLICIT : ROTATION_OFF;
 }
 

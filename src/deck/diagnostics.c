@@ -53,14 +53,20 @@ static bool is_continuation(char c)
     return ((unsigned char)c & 0xC0) == 0x80;
 }
 
-static void add(struct diagnostics *diagnostics, struct deck_place place, bool is_error,
-                const char *format, va_list arguments)
+/* Whether a mistake was noted at this place. */
+static bool is_noted(const struct diagnostics *diagnostics, struct deck_place place)
 {
     for (size_t i = 0; i < diagnostics->count; i++) {
         const struct note *note = &diagnostics->notes[i];
         if (note->is_error && note->place.file == place.file && note->place.offset == place.offset)
-            return;
+            return true;
     }
+    return false;
+}
+
+static void add(struct diagnostics *diagnostics, struct deck_place place, bool is_error,
+                const char *format, va_list arguments)
+{
     diagnostics->errors += is_error;
     if (diagnostics->count >= SHOWN_ERRORS)
         return;
@@ -80,6 +86,15 @@ void diagnostics_error(struct diagnostics *diagnostics, struct deck_place place,
 {
     va_list arguments;
     va_start(arguments, format);
+    if (!is_noted(diagnostics, place))
+        add(diagnostics, place, true, format, arguments);
+    va_end(arguments);
+}
+
+void diagnostics_lack(struct diagnostics *diagnostics, struct deck_place place, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
     add(diagnostics, place, true, format, arguments);
     va_end(arguments);
 }
@@ -88,13 +103,19 @@ void diagnostics_warning(struct diagnostics *diagnostics, struct deck_place plac
 {
     va_list arguments;
     va_start(arguments, format);
-    add(diagnostics, place, false, format, arguments);
+    if (!is_noted(diagnostics, place))
+        add(diagnostics, place, false, format, arguments);
     va_end(arguments);
 }
 
 int diagnostics_errors(const struct diagnostics *diagnostics)
 {
     return diagnostics->errors;
+}
+
+bool diagnostics_is_full(const struct diagnostics *diagnostics)
+{
+    return diagnostics->errors > SHOWN_ERRORS;
 }
 
 static int by_place(const void *left, const void *right)
@@ -142,7 +163,7 @@ void diagnostics_print(struct diagnostics *diagnostics, const struct deck_text *
         qsort(diagnostics->notes, diagnostics->count, sizeof *diagnostics->notes, by_place);
     for (size_t i = 0; i < diagnostics->count; i++)
         print_note(&diagnostics->notes[i], text, stream, colour);
-    if (diagnostics->errors > SHOWN_ERRORS)
-        fprintf(stream, "... and more: %d errors in all\n", diagnostics->errors);
+    if (diagnostics_is_full(diagnostics))
+        fprintf(stream, "... and more errors; reading stopped\n");
     forget(diagnostics);
 }

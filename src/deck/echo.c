@@ -21,7 +21,7 @@ static void echo_plain(const struct scene *scene, FILE *stream, enum category ca
     const struct keyword *table = keyword_table(category);
     for (const struct keyword *row = table; row->name; row++) {
         bool is_given = scene->given[category] >> (row - table) & 1;
-        if (row->field == KEYWORD_NO_FIELD || strncmp(row->name, "sp", 2) == 0)
+        if (row->field == KEYWORD_NO_FIELD || strncmp(row->name, "sp", 2) == 0 || strcmp(row->name, "dcel") == 0)
             continue;
         const char *field = (const char *)scene + row->field;
         fprintf(stream, "%s", row->name);
@@ -57,8 +57,11 @@ static void echo_solving(const struct scene *scene, FILE *stream)
         fprintf(stream, "drda\n");
 }
 
+/* The mass cutoff comes from the cell size that is known when mate is read (spec 3.1). */
 static void echo_materials(const struct scene *scene, FILE *stream)
 {
+    if (scene->cutoff_cell_size > 0)
+        fprintf(stream, "dcel %.17g\n", scene->cutoff_cell_size);
     fprintf(stream, "mate\n");
     for (size_t i = 0; i < scene->n_materials; i++) {
         const struct material *material = &scene->materials[i].material;
@@ -66,6 +69,9 @@ static void echo_materials(const struct scene *scene, FILE *stream)
         print_numbers(stream, material->parameter, argument_count(material->law->parameters));
         fprintf(stream, "\n");
     }
+    if (scene->cutoff_cell_size != scene->cell_size)
+        fprintf(stream, "dcel %.17g   ! after mate: the mass cutoff has the cell size before it, or is zero\n",
+                scene->cell_size);
 }
 
 static void echo_points(const struct generator *generator, FILE *stream, long first, bool whole)

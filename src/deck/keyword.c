@@ -84,7 +84,7 @@ int keyword_distance(const char *word, const char *name)
 {
     int distance = edit_distance(word, name);
     int length = (int)strlen(word);
-    return distance <= 2 && distance * 2 <= length ? distance : -1;
+    return distance <= 2 && distance * 3 <= length + 1 ? distance : -1;
 }
 
 int keyword_row_distance(const struct keyword *row, const char *word)

@@ -39,6 +39,8 @@ struct keyword {
     size_t field;
     /* Called after the arguments are read and stored; may be NULL. */
     void (*apply)(struct reader *reader, const struct deck_word *word, const struct value *values);
+    /* Called instead of `apply` after wrong arguments, which are reported; may be NULL. */
+    void (*fail)(struct reader *reader, const struct deck_word *word);
     const char *doc;
     const char *details; /* sub-block syntax and order rules for --help, or NULL */
     const char *later;   /* not NULL: known word without its feature; says what is missing */

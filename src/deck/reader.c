@@ -242,11 +242,17 @@ bool reader_values(struct reader *reader, const struct argument *arguments, cons
     return good;
 }
 
+/* Whether some text could not be read, so that what seems missing may be there. */
+static bool misses_part(const struct reader *reader)
+{
+    return reader->is_partial || text_is_cut(reader->text);
+}
+
 bool reader_check_id(struct reader *reader, const struct value *value, long count, const char *what)
 {
     if (value->integer >= 1 && value->integer <= count)
         return true;
-    if (count > 0 && !reader->is_partial)
+    if (count > 0 && !misses_part(reader))
         diagnostics_error(reader->diagnostics, value->word.place, "%s %ld does not exist; expected 1 to %ld", what,
                           value->integer, count);
     return false;
@@ -301,8 +307,11 @@ static void run_command(struct reader *reader, const struct keyword *row, const 
         reader_skip_numbers(reader);
         return;
     }
-    if (!reader_values(reader, row->arguments, row->name, values))
+    if (!reader_values(reader, row->arguments, row->name, values)) {
+        if (row->fail)
+            row->fail(reader, word);
         return;
+    }
     if (row->field != KEYWORD_NO_FIELD)
         store_values(reader->scene, row, values);
     if (row->apply)
@@ -320,7 +329,7 @@ bool reader_was_given(const struct reader *reader, const char *name)
 {
     enum category category;
     uint64_t bit = bit_of(name, &category);
-    return reader->is_partial || (reader->scene->given[category] & bit);
+    return misses_part(reader) || (reader->scene->given[category] & bit);
 }
 
 bool reader_is_missing(const struct reader *reader, const char *name)
@@ -378,6 +387,21 @@ static bool leaves_block(struct reader *reader, const char *text)
     return keyword_find(text, NULL) && text_second(reader->text, &second) && !strchr("0123456789+-.", *second.text);
 }
 
+/* Whether an unknown word in a block was meant to end it: it is spelt nearly so, or nothing that
+ * belongs to the block comes behind it. */
+static bool seems_end(struct reader *reader, const struct keyword *table, const char *text, const char *end)
+{
+    struct deck_word next;
+    char name[SHOWN];
+    double real;
+    const char *nearest = keyword_nearest(table, text);
+    int distance = keyword_distance(text, end);
+    if (distance >= 0 && (!nearest || distance < keyword_distance(text, nearest)))
+        return true;
+    return reader_at_line_end(reader) && text_peek(reader->text, &next) && !reader_is_real(&next, &real)
+        && !keyword_in(table, text_copy(&next, name, sizeof name)) && strncasecmp(name, end, 4) != 0;
+}
+
 /* Notes a word that does not belong in a block; whether it was meant to end the block. */
 static bool unknown_in_block(struct reader *reader, const struct deck_word *word, const struct keyword *table,
                              const char *end, const char *owner)
@@ -385,15 +409,13 @@ static bool unknown_in_block(struct reader *reader, const struct deck_word *word
     char text[SHOWN], what[SHOWN];
     double real;
     text_copy(word, text, sizeof text);
-    const char *nearest = keyword_nearest(table, text);
-    bool is_end = keyword_distance(text, end) >= 0
-               && (!nearest || keyword_distance(text, end) < keyword_distance(text, nearest));
     snprintf(what, sizeof what, "a word of '%s' or '%s'", owner, end);
     if (reader_is_real(word, &real)) {
         unexpected_number(reader, word, what, NULL);
         return false;
     }
-    reader_unknown(reader, word, "word in a block", is_end ? end : nearest, owner);
+    bool is_end = seems_end(reader, table, text, end);
+    reader_unknown(reader, word, "word in a block", is_end ? end : keyword_nearest(table, text), owner);
     if (!is_end)
         reader_skip_numbers(reader);
     return is_end;
@@ -475,6 +497,11 @@ static void unknown_command(struct reader *reader, const struct deck_word *word,
         unexpected_number(reader, word, "a keyword", reader->command);
         return;
     }
+    if (strncasecmp(text, "endl", 4) == 0 || strncasecmp(text, "endv", 4) == 0) {
+        diagnostics_error(reader->diagnostics, word->place, "'%.4s' ends no block; expected '%s' before it", text,
+                          strncasecmp(text, "endl", 4) == 0 ? "load" : "velo");
+        return;
+    }
     const char *nearest = keyword_nearest_top(text);
     reader_unknown(reader, word, "keyword", nearest, "");
     if (nearest) {
@@ -489,16 +516,16 @@ static void unknown_command(struct reader *reader, const struct deck_word *word,
 static void finish(struct reader *reader)
 {
     struct deck_place end = reader->last.place;
-    if (reader->is_cut || reader->is_partial || text_is_cut(reader->text))
+    if (reader->is_cut || misses_part(reader))
         return;
     if (!reader->ended && !reader_was_given(reader, "endi")) {
         diagnostics_error(reader->diagnostics, text_behind(&reader->last), "the deck ends without 'endi'");
         return;
     }
-    reader_finish_general(reader, end);
     reader_finish_grid(reader, end);
     reader_finish_materials(reader);
     reader_finish_targets(reader);
+    reader_finish_general(reader, end);
 }
 
 struct scene *reader_read(struct deck_text *text, struct diagnostics *diagnostics)

@@ -28,7 +28,8 @@ struct reader {
     bool has_plot_box;             /* pt2d was read: it holds for bodies that follow */
     double plot_box[6];
     uint64_t missing[CATEGORY_COUNT]; /* words reported as missing, like scene.given */
-    struct deck_place output_interval_place, bodies_place, particles_place, materials_place, span_place[3];
+    struct deck_place output_interval_place, bodies_place, particles_place, materials_place;
+    struct deck_place cell_place, span_place[3];
 };
 
 /* Reads the deck from `text` into a new scene. Mistakes go to `diagnostics`; when there are any

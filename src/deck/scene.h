@@ -25,7 +25,7 @@ struct scene_body {
     long first, count;     /* particle ids first ... first + count - 1 */
     bool has_plot_box;     /* points created outside plot_box are left out of the animation file */
     double plot_box[6];
-    struct deck_place place;
+    struct deck_place place, component_place;
 };
 
 enum scene_load_kind { LOAD_PARTICLE, LOAD_BODY, LOAD_GRAVITY, LOAD_DENSITY, LOAD_FACE };
@@ -64,7 +64,7 @@ struct scene {
     double grid[6]; /* x0 x1 y0 y1 z0 z1 */
     double cell_size;
     long boundary[6]; /* codes of the faces x- x+ y- y+ z- z+ */
-    double mass_cutoff;
+    double mass_cutoff, cutoff_cell_size; /* the latter is the cell size when mate was read */
     enum scheme scheme;
     enum rotation rotation;
     double bulk[2]; /* artificial viscosity: quadratic, linear */

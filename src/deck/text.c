@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#define _POSIX_C_SOURCE 200809L
 #include "deck/text.h"
 #include "base/memory.h"
 #include "deck/diagnostics.h"
@@ -6,6 +7,7 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* A point in a file that is being read. */
 struct cursor {
@@ -216,7 +218,7 @@ static void pass_word(struct deck_text *text, struct cursor *cursor, struct deck
 
 static bool take_word(struct deck_text *text, struct deck_word *word)
 {
-    while (text->depth > 0) {
+    while (text->depth > 0 && !diagnostics_is_full(text->diagnostics)) {
         struct cursor *cursor = &text->stack[text->depth - 1];
         if (find_word(text, cursor)) {
             pass_word(text, cursor, word);
@@ -293,8 +295,12 @@ char *text_rest_of_line(struct deck_text *text, const struct deck_word *from)
 
 bool text_is_open(const struct deck_text *text, const char *path)
 {
+    struct stat sought, open;
+    if (text->refuses_includes || stat(path, &sought) != 0)
+        return false;
     for (size_t i = 0; i < text->depth; i++)
-        if (strcmp(text->files[text->stack[i].file].name, path) == 0)
+        if (stat(text->files[text->stack[i].file].name, &open) == 0 && open.st_dev == sought.st_dev
+            && open.st_ino == sought.st_ino)
             return true;
     return false;
 }

@@ -178,6 +178,7 @@ static void print_growth(int all, bool quick)
 int main(int count, char **arguments)
 {
     bool quick = count > 1 && strcmp(arguments[1], "quick") == 0;
+    threads_wait_briefly(arguments);
     int all = threads_available();
     print_threads(all, quick ? 20 : 60);
     print_growth(all, quick);
