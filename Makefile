@@ -112,3 +112,24 @@ help:
 .DEFAULT_GOAL := all
 
 -include $(objects:.o=.d)
+
+# --- fuzzing: `make fuzz FUZZ_TIME=900` searches, `fuzz_replay` gives the seeds to any build ---
+
+FUZZ_TIME ?= 900
+fuzz_flags := -std=c11 -g -O1 -Isrc -DNO_CLONES -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined
+
+$(build)/fuzz_replay: tests/fuzz/replay.c tests/fuzz/fuzz_deck.c $(library)
+	@echo "  CC  $@"
+	@$(CC) $(CPPFLAGS) $(filter-out -MMD -MP,$(flags)) $(CFLAGS) $(san) $(openmp) $^ -lm -o $@
+
+build/fuzz_deck: tests/fuzz/fuzz_deck.c $(sources) $(wildcard src/*.h src/*/*.h)
+	@mkdir -p $(@D)
+	clang $(fuzz_flags) tests/fuzz/fuzz_deck.c $(filter-out src/main.c,$(sources)) -lm -o $@
+
+fuzz:
+	@if ! echo 'int LLVMFuzzerTestOneInput(const char *b, long n) { (void)b; (void)n; return 0; }' | \
+	    clang -fsanitize=fuzzer -x c - -o /dev/null 2>/dev/null; then \
+	    echo "fuzz: no clang with libFuzzer here, nothing is searched"; exit 0; fi; \
+	$(MAKE) build/fuzz_deck && mkdir -p build/corpus && \
+	build/fuzz_deck -max_total_time=$(FUZZ_TIME) -timeout=1 -rss_limit_mb=2048 -max_len=4096 -print_final_stats=1 \
+	    -dict=tests/fuzz/deck.dict -artifact_prefix=build/ build/corpus tests/fuzz/seeds

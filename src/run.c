@@ -188,7 +188,16 @@ enum status run_open(struct run *run, const struct run_options *options)
 
 bool run_goes_on(const struct run *run)
 {
-    return run->mpm->step == 0 || run->mpm->time <= run->scene->end_time;
+    const struct scene *scene = run->scene;
+    const struct sums *sums = &run->mpm->sums;
+    double time = run->mpm->time, least = fmax(scene->end_time, scene->settling[0]);
+    if (run->mpm->step == 0 || time <= scene->end_time)
+        return true;
+    if (scene->loading_time == 0)
+        return false;
+    double latest = scene->settling[1] > 0 ? scene->settling[1] : 10 * least;
+    bool is_at_rest = sums->kinetic / (sums->kinetic + sums->internal) < 0.005 && time > scene->settling[0];
+    return !is_at_rest && time <= latest;
 }
 
 /* The lines of this step, and the dump when it is due. The reference counts output times in
@@ -197,7 +206,8 @@ static enum status write_step(struct run *run)
 {
     const struct mpm *mpm = run->mpm;
     const struct history_totals totals = {mpm->time, mpm->sums.kinetic, mpm->sums.internal,
-                                          {mpm->sums.momentum[0], mpm->sums.momentum[1], mpm->sums.momentum[2]}};
+                                          {mpm->sums.momentum[0], mpm->sums.momentum[1], mpm->sums.momentum[2]},
+                                          {mpm->contact_force[0], mpm->contact_force[1], mpm->contact_force[2]}};
     enum status status = STATUS_FINISHED;
     history_step(&run->history, run->scene, &run->source, &totals);
     if (mpm->time >= (double)run->next_report) {

@@ -28,4 +28,14 @@ THREADS_INLINE double tensor_determinant(double m[3][3])
          + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
+/* Inverse of m[row][column], whose determinant is given. */
+THREADS_INLINE void tensor_inverse(double m[3][3], double determinant, double inverse[3][3])
+{
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+            int r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
+            inverse[c][r] = (m[r1][c1] * m[r2][c2] - m[r1][c2] * m[r2][c1]) / determinant;
+        }
+}
+
 #endif

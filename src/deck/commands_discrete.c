@@ -85,13 +85,14 @@ static bool check_points(struct reader *reader, const struct deck_word *before, 
         return true;
     reader->is_cut = run.ends_deck;
     if (before->place.line != n->word.place.line)
-        diagnostics_error(reader->diagnostics, text_behind(before), "part poin lacks its n; expected a whole number");
+        diagnostics_error(reader->diagnostics, text_behind(before),
+                          "part poin lacks its n; expected a whole number");
     else if (run.odd_count == 0)
-        diagnostics_error(reader->diagnostics, n->word.place, "n of part poin is %ld, but %ld points follow", n->integer,
-                          run.count / a_line);
+        diagnostics_error(reader->diagnostics, n->word.place, "n of part poin is %ld, but %ld points follow",
+                          n->integer, run.count / a_line);
     else
-        diagnostics_error(reader->diagnostics, run.odd, "this line has %ld numbers; a point has %ld: id material mass x y z",
-                          run.odd_count, a_line);
+        diagnostics_error(reader->diagnostics, run.odd,
+                          "this line has %ld numbers; a point has %ld: id material mass x y z", run.odd_count, a_line);
     return false;
 }
 
@@ -105,7 +106,8 @@ static bool lacks_component(struct reader *reader, const struct generator *gener
     if (values[0].word.place.line == values[1].word.place.line || reader_at_line_end(reader)
         || numbers_ahead(reader, needed).count != needed - 1)
         return false;
-    diagnostics_error(reader->diagnostics, text_behind(&values[0].word), "part lacks its component; expected a whole number");
+    diagnostics_error(reader->diagnostics, text_behind(&values[0].word),
+                      "part lacks its component; expected a whole number");
     return true;
 }
 
@@ -196,8 +198,9 @@ static bool count_points(struct reader *reader, struct scene_body *body)
     if (scene->particles_declared == 0) /* nbmp is wrong or missing, which is reported */
         return false;
     if (body->count < 0)
-        diagnostics_error(reader->diagnostics, body->place, "this body's lattice has %.6g points, far more than nbmp, %ld",
-                          candidates, scene->particles_declared);
+        diagnostics_error(reader->diagnostics, body->place,
+                          "this body's lattice has %.6g points, far more than nbmp, %ld", candidates,
+                          scene->particles_declared);
     else
         diagnostics_error(reader->diagnostics, body->place,
                           "this body has %ld particles, with %ld before it more than nbmp, which is %ld", body->count,

@@ -129,9 +129,9 @@ const struct keyword general_keywords[] = {
 void reader_finish_general(struct reader *reader, struct deck_place end)
 {
     struct scene *scene = reader->scene;
-    if (scene->n_bodies == 0 && !reader_was_given(reader, "part"))
+    if (!reader_was_given(reader, "part"))
         diagnostics_lack(reader->diagnostics, end, "the deck has no particles; expected a 'part' block");
-    else if (scene->n_particles == 0 && !reader->has_bad_part)
+    else if (scene->n_bodies > 0 && scene->n_particles == 0 && !reader->has_bad_part)
         diagnostics_error(reader->diagnostics, scene->bodies[0].place, "the bodies of this deck hold no particle");
     if (!scene->title)
         scene->title = memory_text("mpm3d", 5);

@@ -111,14 +111,46 @@ static void velocity_body(struct reader *reader, const struct deck_word *word, c
     add_velocity(reader, word, VELOCITY_BODY, values);
 }
 
+/* A field that is a formula of the particle; its number is kept as the first component. */
+static void add_field(struct reader *reader, enum scene_velocity_kind kind, const struct value *value)
+{
+    struct scene *scene = reader->scene;
+    struct scene_velocity velocity = {kind, 0, {value->real, 0, 0}, value->word.place};
+    scene->velocities = memory_grow(scene->velocities, &scene->velocities_capacity, scene->n_velocities + 1,
+                                    sizeof velocity, "velocities");
+    scene->velocities[scene->n_velocities++] = velocity;
+}
+
+static void velocity_sine(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    add_field(reader, VELOCITY_SINE, &values[0]);
+}
+
+static void velocity_rows(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    if (values[1].integer == 1)
+        add_field(reader, VELOCITY_ROWS, &values[0]);
+}
+
+static void velocity_bending(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    add_field(reader, VELOCITY_BENDING, &values[0]);
+}
+
 const struct keyword velocity_keywords[] = {
     {.name = "node", .arguments = (const struct argument[]){ID("particle"), VECTOR("vx", "vy", "vz", "length/time")},
      .apply = velocity_particle, .doc = "velocity of a particle"},
     {.name = "body", .arguments = (const struct argument[]){ID("body"), VECTOR("vx", "vy", "vz", "length/time")},
      .apply = velocity_body, .doc = "velocity of all particles of a body"},
-    {.name = "vsin", .doc = "sine of y", .later = "built-in velocity fields"},
-    {.name = "ksin", .doc = "sine along rows", .later = "built-in velocity fields"},
-    {.name = "nuli", .doc = "bending mode", .later = "built-in velocity fields"},
+    {.name = "vsin", .arguments = (const struct argument[]){{"v0", "length/time", ARGUMENT_REAL, LIMIT_NONE}, {0}},
+     .apply = velocity_sine, .doc = "v0 sin(pi y / 6) along x for all particles"},
+    {.name = "ksin", .arguments = (const struct argument[]){{"v0", "length/time", ARGUMENT_REAL, LIMIT_NONE}, ID("body"), {0}},
+     .apply = velocity_rows, .doc = "body 1: half a sine wave along x for particles 1 to 1280 in rows of 320"},
+    {.name = "nuli", .arguments = (const struct argument[]){{"y", "length", ARGUMENT_REAL, LIMIT_NONE}, {0}},
+     .apply = velocity_bending, .doc = "first bending mode along y for particles 1 to 49152 in rows of 384"},
     {0}};
 
 static void read_block(struct reader *reader, const struct deck_word *word, const struct keyword *table,
@@ -146,7 +178,15 @@ const struct keyword loading_keywords[] = {
                 "tractions add up. The kinds:"},
     {.name = "velo", .apply = read_velocities, .doc = "block of initial velocities, up to endv",
      .details = "velo\n  kind target vx vy vz ...\nendv\nThe kinds:"},
-    {.name = "QuLo", .doc = "slow loading ramp", .later = "quasi-static loading"},
+    {.name = "QuLo", .arguments = (const struct argument[]){{"time", "time", ARGUMENT_REAL, LIMIT_POSITIVE}, {0}},
+     .field = offsetof(struct scene, loading_time),
+     .doc = "loads (not gravity) grow up to this time; the run goes on until it is at rest (see quli)"},
+    {.name = "quli",
+     .arguments = (const struct argument[]){{"least", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE},
+                                            {"latest", "time", ARGUMENT_REAL, LIMIT_POSITIVE}, {0}},
+     .field = offsetof(struct scene, settling),
+     .doc = "with QuLo: the run ends between these times, when the kinetic energy is below 0.5 % (100, and ten times "
+            "the larger of it and endt)"},
     {0}};
 
 static void check_particle(struct reader *reader, long particle, struct deck_place place)
@@ -171,9 +211,13 @@ void reader_finish_targets(struct reader *reader)
     for (size_t i = 0; i < scene->n_loads; i++)
         if (scene->loads[i].kind == LOAD_PARTICLE || scene->loads[i].kind == LOAD_DENSITY)
             check_particle(reader, scene->loads[i].target, scene->loads[i].place);
-    for (size_t i = 0; i < scene->n_velocities; i++)
-        if (scene->velocities[i].kind == VELOCITY_PARTICLE)
-            check_particle(reader, scene->velocities[i].target, scene->velocities[i].place);
+    for (size_t i = 0; i < scene->n_velocities; i++) {
+        static const long needed[] = {[VELOCITY_ROWS] = 1280, [VELOCITY_BENDING] = 49152};
+        const struct scene_velocity *velocity = &scene->velocities[i];
+        bool is_field = velocity->kind == VELOCITY_ROWS || velocity->kind == VELOCITY_BENDING;
+        if (velocity->kind == VELOCITY_PARTICLE || is_field)
+            check_particle(reader, is_field ? needed[velocity->kind] - 1 : velocity->target, velocity->place);
+    }
     for (size_t i = 0; i < scene->n_curves; i++)
         if (!scene->curves[i].is_near)
             check_particle(reader, scene->curves[i].particle, scene->curves[i].place);

@@ -2,6 +2,7 @@
 /* Material model: the mate block, and later the equations of state. */
 #include "base/memory.h"
 #include "deck/reader.h"
+#include "material/eos.h"
 
 #include <math.h>
 #include <string.h>
@@ -96,35 +97,40 @@ static bool read_law(struct reader *reader, struct scene_material *entry)
     return false;
 }
 
-/* Reads `id law parameters`; returns the id, or 0 where it is wrong. `has_ended`: the last material
- * was read before. */
+/* Takes the id of a material; false (and an error) where it is missing or wrong. `has_ended`: the
+ * last material was read before. */
+static bool take_id(struct reader *reader, bool has_ended, struct value *id)
+{
+    const long declared = reader->scene->materials_declared;
+    char text[40];
+    text_peek(reader->text, &id->word);
+    if (law_find(text_copy(&id->word, text, sizeof text))) {
+        diagnostics_error(reader->diagnostics, id->word.place, "expected a material id before '%s'", text);
+        return false;
+    }
+    text_next(reader->text, &reader->last);
+    if (!reader_is_integer(&id->word, &id->integer))
+        diagnostics_error(reader->diagnostics, id->word.place, "expected a material id (a whole number), found '%s'",
+                          text_show(&id->word, text, sizeof text));
+    else if (has_ended && id->integer >= 1 && id->integer <= declared)
+        diagnostics_error(reader->diagnostics, id->word.place,
+                          "material %ld comes after material %ld, the last by 'nmat', which ends 'mate'", id->integer,
+                          declared);
+    else
+        return reader_check_id(reader, id, declared, "material");
+    return false;
+}
+
+/* Reads `id law parameters`; returns the id, or 0 where it is wrong. */
 static long read_material(struct reader *reader, bool has_ended)
 {
-    struct scene *scene = reader->scene;
     struct scene_material nowhere = {0}, *entry = &nowhere;
     struct value id = {0};
     struct deck_word next;
     double real;
-    char text[40];
-    bool good = false;
-    text_peek(reader->text, &id.word);
-    if (law_find(text_copy(&id.word, text, sizeof text))) {
-        diagnostics_error(reader->diagnostics, id.word.place, "expected a material id before '%s'", text);
-    } else {
-        text_next(reader->text, &id.word);
-        reader->last = id.word;
-        if (!reader_is_integer(&id.word, &id.integer))
-            diagnostics_error(reader->diagnostics, id.word.place, "expected a material id (a whole number), found '%s'",
-                              text_show(&id.word, text, sizeof text));
-        else if (has_ended && id.integer >= 1 && id.integer <= scene->materials_declared)
-            diagnostics_error(reader->diagnostics, id.word.place,
-                              "material %ld comes after material %ld, the last by 'nmat', which ends 'mate'", id.integer,
-                              scene->materials_declared);
-        else
-            good = reader_check_id(reader, &id, scene->materials_declared, "material");
-    }
+    bool good = take_id(reader, has_ended, &id);
     if (good)
-        entry = material_at(scene, (size_t)id.integer - 1);
+        entry = material_at(reader->scene, (size_t)id.integer - 1);
     if (good || (text_peek(reader->text, &next) && !reader_is_real(&next, &real)))
         entry->is_given = read_law(reader, entry);
     if (good && entry->is_given)
@@ -143,8 +149,9 @@ static bool breaks_off(struct reader *reader)
     char text[40];
     if (!text_peek(reader->text, &word)) {
         reader->is_cut = true;
-        diagnostics_error(reader->diagnostics, text_behind(&reader->last), "the deck ends here; expected material %zu of %ld",
-                          scene->n_materials + 1, scene->materials_declared);
+        diagnostics_error(reader->diagnostics, text_behind(&reader->last),
+                          "the deck ends here; expected material %zu of %ld", scene->n_materials + 1,
+                          scene->materials_declared);
         return true;
     }
     const struct keyword *row = keyword_find(text_copy(&word, text, sizeof text), NULL);
@@ -190,19 +197,69 @@ static void read_materials(struct reader *reader, const struct deck_word *word, 
     set_mass_cutoff(scene);
 }
 
+static void read_eos(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    struct scene *scene = reader->scene;
+    struct value constants[KEYWORD_ARGUMENTS];
+    double numbers[KEYWORD_ARGUMENTS];
+    const struct eos *eos = eos_find(values[1].integer);
+    bool good = reader_needs(reader, word, "mate")
+             && reader_check_id(reader, &values[0], (long)scene->n_materials, "material");
+    if (!eos)
+        diagnostics_error(reader->diagnostics, values[1].word.place,
+                          "there is no equation of state of type %ld; expected 1 to 4", values[1].integer);
+    if (!good || !eos || !scene->materials[values[0].integer - 1].is_given) {
+        reader_skip_numbers(reader);
+        return;
+    }
+    if (!reader_values(reader, eos->arguments, "seos", constants))
+        return;
+    struct material *material = &scene->materials[values[0].integer - 1].material;
+    for (int i = 0; i < argument_count(eos->arguments); i++)
+        numbers[i] = material->eos_number[i] = constants[i].real;
+    material->eos = eos;
+    material->initial_energy = eos->energy_argument >= 0 ? numbers[eos->energy_argument] : 0;
+    eos->prepare(material, numbers);
+    if (material->law == &law_null) /* as in the reference, for every type (spec 3.2, Q) */
+        material->eos_constant[0] = material->wave_speed;
+}
+
+static void read_detonation(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    struct scene *scene = reader->scene;
+    (void)word;
+    scene->detonations = memory_grow(scene->detonations, &scene->detonations_capacity, scene->n_detonations + 1,
+                                     sizeof *scene->detonations, "detonation points");
+    scene->detonations[scene->n_detonations++] =
+        (struct scene_point){{values[0].real, values[1].real, values[2].real}};
+}
+
 const struct keyword material_keywords[] = {
     {.name = "mate", .long_name = "material", .apply = read_materials,
      .doc = "materials: id, law and its parameters, up to the highest id",
      .details = "mate\n  id law parameters...\nThe last id has to be nmat. The laws:"},
-    {.name = "seos", .doc = "equation of state of a material", .later = "equations of state"},
-    {.name = "deto", .doc = "detonation point", .later = "explosives"},
+    {.name = "seos",
+     .arguments = (const struct argument[]){{"material", NULL, ARGUMENT_INTEGER, LIMIT_COUNT},
+                                            {"type", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
+     .apply = read_eos, .doc = "equation of state of a material; after its mate",
+     .details = "seos material type constants...\nThe types:"},
+    {.name = "deto",
+     .arguments = (const struct argument[]){{"x", "length", ARGUMENT_REAL, LIMIT_NONE},
+                                            {"y", "length", ARGUMENT_REAL, LIMIT_NONE},
+                                            {"z", "length", ARGUMENT_REAL, LIMIT_NONE}, {0}},
+     .apply = read_detonation, .doc = "a point where explosives are lit; may be repeated"},
     {0}};
 
 void reader_finish_materials(struct reader *reader)
 {
     const struct scene *scene = reader->scene;
-    for (size_t i = 0; i < scene->n_materials && !reader->has_bad_material; i++)
-        if (!scene->materials[i].is_given)
+    for (size_t i = 0; i < scene->n_materials && !reader->has_bad_material; i++) {
+        const struct scene_material *entry = &scene->materials[i];
+        if (!entry->is_given)
             diagnostics_error(reader->diagnostics, reader->materials_place, "material %zu of %ld is not given in 'mate'",
                               i + 1, scene->materials_declared);
+        else if (entry->material.law->needs_eos && !entry->material.eos)
+            diagnostics_error(reader->diagnostics, entry->place, "law '%s' needs an equation of state; expected 'seos %zu ...'",
+                              entry->material.law->name, i + 1);
+    }
 }

@@ -69,6 +69,64 @@ static void read_sorting(struct reader *reader, const struct deck_word *word, co
         reader->scene->sorts = on == 1;
 }
 
+/* Of several interpolations sgmp wins over gimp, gimp over bimp (spec 2). */
+static void read_gimp(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    static const char *const own[] = {"cp", NULL};
+    (void)word;
+    (void)values;
+    bool is_own = reader_optional(reader, own) == 0;
+    reader->interpolation_place = word->place;
+    if (reader->scene->interpolation == INTERPOLATION_STAGGERED)
+        return;
+    reader->scene->interpolation = is_own ? INTERPOLATION_GIMP_OWN : INTERPOLATION_GIMP;
+}
+
+static void read_bimp(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    (void)values;
+    reader->interpolation_place = word->place;
+    if (reader->scene->interpolation == INTERPOLATION_LINEAR)
+        reader->scene->interpolation = INTERPOLATION_BIMP;
+}
+
+static void read_staggered(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)values;
+    reader->interpolation_place = word->place;
+    reader->scene->interpolation = INTERPOLATION_STAGGERED;
+}
+
+static void read_total(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)values;
+    reader->total_place = word->place;
+    reader->scene->is_total = true;
+}
+
+static void read_contact(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    struct scene *scene = reader->scene;
+    const struct deck_word *method = &values[0].word;
+    bool is_lagrange = method->length >= 4 && strncasecmp(method->text, "lagr", 4) == 0;
+    bool is_other = method->length >= 4 && strncasecmp(method->text, "othe", 4) == 0;
+    (void)word;
+    if (!is_lagrange && !is_other)
+        diagnostics_error(reader->diagnostics, method->place, "the method of contact must be lagr or othe");
+    scene->contact = is_lagrange ? CONTACT_LAGRANGE : CONTACT_OTHER;
+    scene->contact_friction = values[1].real;
+    scene->contact_normal = values[2].integer;
+    reader->contact_place = method->place;
+}
+
+static void read_deformation(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    (void)values;
+    reader->scene->tracks_deformation = true;
+}
+
 static void read_kinetic_damping(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     (void)word;
@@ -102,10 +160,45 @@ const struct keyword solving_keywords[] = {
      .doc = "kinetic damping: velocities are set to zero whenever the kinetic energy falls"},
     {.name = "sort", .arguments = SWITCH, .apply = read_sorting,
      .doc = "keep particles in cell order in memory (on); changes speed, never results"},
-    {.name = "gimp", .doc = "generalised interpolation", .later = "shape functions other than linear"},
-    {.name = "bimp", .doc = "quadratic B-splines", .later = "shape functions other than linear"},
-    {.name = "sgmp", .doc = "staggered grid", .later = "the staggered grid"},
-    {.name = "TLmp", .doc = "total Lagrangian", .later = "the total Lagrangian formulation"},
-    {.name = "UVFp", .doc = "volume from the deformation gradient", .later = "the deformation gradient"},
-    {.name = "cont", .long_name = "contact", .doc = "contact", .later = "contact"},
+    {.name = "gimp", .apply = read_gimp,
+     .doc = "generalised interpolation; particles half a cell wide, or with `gimp cp` as wide as they are"},
+    {.name = "bimp", .apply = read_bimp, .doc = "quadratic B-spline shape functions"},
+    {.name = "sgmp", .apply = read_staggered, .doc = "staggered grid: stress and strain at cell centres, against locking"},
+    {.name = "TLmp", .apply = read_total, .doc = "total Lagrangian formulation; neoh only, alone or with sgmp"},
+    {.name = "UVFp", .apply = read_deformation, .doc = "particle volume from the deformation gradient"},
+    {.name = "cont", .long_name = "contact",
+     .arguments = (const struct argument[]){{"lagr|othe", NULL, ARGUMENT_WORD, LIMIT_NONE},
+                                            {"friction", NULL, ARGUMENT_REAL, LIMIT_NOT_NEGATIVE},
+                                            {"normal", NULL, ARGUMENT_INTEGER, LIMIT_BOUNDARY}, {0}},
+     .apply = read_contact,
+     .doc = "contact of components: by forces on shared nodes (lagr), or none, bodies pass each other (othe); "
+            "friction; normal of both (0), the first (1) or the second component (2)"},
     {0}};
+
+/* Pairs of words that do not go together (spec 10.1: D10, D12), and words that need others. */
+void reader_finish_solving(struct reader *reader)
+{
+    const struct scene *scene = reader->scene;
+    const bool is_smooth = scene->interpolation != INTERPOLATION_LINEAR && scene->interpolation != INTERPOLATION_STAGGERED;
+    if (scene->contact != CONTACT_NONE && scene->components < 2)
+        diagnostics_error(reader->diagnostics, reader->contact_place, "'cont' needs two components; expected 'nbco 2' or more");
+    if (scene->contact != CONTACT_NONE && scene->interpolation == INTERPOLATION_STAGGERED)
+        diagnostics_error(reader->diagnostics, reader->contact_place, "'cont' does not go with 'sgmp'; take gimp or bimp");
+    if (scene->contact != CONTACT_NONE && scene->is_total)
+        diagnostics_error(reader->diagnostics, reader->contact_place, "'cont' does not go with 'TLmp'");
+    if (scene->is_total && is_smooth)
+        diagnostics_error(reader->diagnostics, reader->total_place, "'TLmp' does not go with 'gimp' or 'bimp'; take sgmp or none");
+    for (size_t i = 0; i < scene->n_materials && scene->is_total; i++)
+        if (scene->materials[i].is_given && scene->materials[i].material.law != &law_neoh)
+            diagnostics_error(reader->diagnostics, reader->total_place, "'TLmp' does not go with '%s'; only with neoh",
+                              scene->materials[i].material.law->name);
+    for (size_t i = 0; i < scene->n_loads; i++)
+        if (scene->loads[i].kind == LOAD_FACE && scene->interpolation != INTERPOLATION_LINEAR)
+            diagnostics_error(reader->diagnostics, scene->loads[i].place, "'load face' does not go with gimp, bimp or sgmp");
+    for (size_t b = 1; b < scene->n_bodies && scene->contact == CONTACT_NONE; b++)
+        if (scene->bodies[b].component != scene->bodies[0].component) {
+            diagnostics_warning(reader->diagnostics, scene->bodies[b].component_place,
+                                "this deck has several components and no 'cont': where they touch they stick");
+            break;
+        }
+}

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "deck/echo.h"
 #include "deck/keyword.h"
+#include "material/eos.h"
 
 #include <string.h>
 #include <strings.h>
@@ -53,8 +54,23 @@ static void echo_solving(const struct scene *scene, FILE *stream)
             was_given(scene, CATEGORY_SOLVING, "jaum") ? "" : "   ! default");
     fprintf(stream, "sort %s%s\n", scene->sorts ? "on" : "off",
             was_given(scene, CATEGORY_SOLVING, "sort") ? "" : "   ! default");
+    static const char *const interpolations[] = {[INTERPOLATION_LINEAR] = "", [INTERPOLATION_GIMP] = "gimp\n",
+                                                 [INTERPOLATION_GIMP_OWN] = "gimp cp\n", [INTERPOLATION_BIMP] = "bimp\n",
+                                                 [INTERPOLATION_STAGGERED] = "sgmp\n"};
+    fputs(interpolations[scene->interpolation], stream);
+    if (scene->contact != CONTACT_NONE)
+        fprintf(stream, "cont %s %.17g %ld\n", scene->contact == CONTACT_LAGRANGE ? "lagr" : "othe",
+                scene->contact_friction, scene->contact_normal);
+    if (scene->is_total)
+        fprintf(stream, "TLmp\n");
+    if (scene->tracks_deformation)
+        fprintf(stream, "UVFp\n");
     if (scene->kinetic_damping)
         fprintf(stream, "drda\n");
+    if (scene->loading_time > 0)
+        fprintf(stream, "QuLo %.17g\n", scene->loading_time);
+    if (scene->loading_time > 0 && scene->settling[1] > 0)
+        fprintf(stream, "quli %.17g %.17g\n", scene->settling[0], scene->settling[1]);
 }
 
 /* The mass cutoff comes from the cell size that is known when mate is read (spec 3.1). */
@@ -67,6 +83,19 @@ static void echo_materials(const struct scene *scene, FILE *stream)
         const struct material *material = &scene->materials[i].material;
         fprintf(stream, "  %zu %s", i + 1, material->law->name);
         print_numbers(stream, material->parameter, argument_count(material->law->parameters));
+        fprintf(stream, "\n");
+    }
+    for (size_t i = 0; i < scene->n_materials; i++) {
+        const struct material *material = &scene->materials[i].material;
+        if (!material->eos)
+            continue;
+        fprintf(stream, "seos %zu %d", i + 1, material->eos->type);
+        print_numbers(stream, material->eos_number, argument_count(material->eos->arguments));
+        fprintf(stream, "\n");
+    }
+    for (size_t i = 0; i < scene->n_detonations; i++) {
+        fprintf(stream, "deto");
+        print_numbers(stream, scene->detonations[i].position, 3);
         fprintf(stream, "\n");
     }
     if (scene->cutoff_cell_size != scene->cell_size)
@@ -149,9 +178,14 @@ static void echo_velocities(const struct scene *scene, FILE *stream, bool whole)
             fprintf(stream, "  ! ... %zu lines more\n", scene->n_velocities - i);
             break;
         }
-        fprintf(stream, "  %s %ld", velocity->kind == VELOCITY_BODY ? "body" : "node", velocity->target + 1);
-        print_numbers(stream, velocity->value, 3);
-        fprintf(stream, "\n");
+        static const char *const kinds[] = {[VELOCITY_PARTICLE] = "node", [VELOCITY_BODY] = "body", [VELOCITY_SINE] = "vsin",
+                                            [VELOCITY_ROWS] = "ksin", [VELOCITY_BENDING] = "nuli"};
+        bool is_field = velocity->kind != VELOCITY_PARTICLE && velocity->kind != VELOCITY_BODY;
+        fprintf(stream, "  %s", kinds[velocity->kind]);
+        if (!is_field)
+            fprintf(stream, " %ld", velocity->target + 1);
+        print_numbers(stream, velocity->value, is_field ? 1 : 3);
+        fprintf(stream, velocity->kind == VELOCITY_ROWS ? " 1\n" : "\n");
     }
     fprintf(stream, "endv\n");
 }

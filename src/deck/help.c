@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "deck/help.h"
 #include "deck/keyword.h"
+#include "material/eos.h"
 #include "material/law.h"
 #include "particles/generate.h"
 #include "particles/results.h"
@@ -47,6 +48,15 @@ static void print_laws(FILE *stream)
         print_line(stream, (*law)->name, (*law)->doc, (*law)->later);
 }
 
+static void print_equations(FILE *stream)
+{
+    for (const struct eos *eos = eos_rows(); eos->type; eos++) {
+        fprintf(stream, "  %d     %s: %s\n        seos material %d", eos->type, eos->name, eos->doc, eos->type);
+        print_arguments(stream, eos->arguments);
+        fprintf(stream, "\n");
+    }
+}
+
 static void print_generators(FILE *stream)
 {
     int count;
@@ -78,6 +88,8 @@ static void print_below(FILE *stream, const char *name)
 {
     if (strcmp(name, "mate") == 0)
         print_laws(stream);
+    else if (strcmp(name, "seos") == 0)
+        print_equations(stream);
     else if (strcmp(name, "part") == 0)
         print_generators(stream);
     else if (strcmp(name, "load") == 0)

@@ -82,8 +82,10 @@ static int edit_distance(const char *a, const char *b)
 
 int keyword_distance(const char *word, const char *name)
 {
+    int length = (int)strlen(word), difference = length - (int)strlen(name);
+    if (difference < -2 || difference > 2)
+        return -1;
     int distance = edit_distance(word, name);
-    int length = (int)strlen(word);
     return distance <= 2 && distance * 3 <= length + 1 ? distance : -1;
 }
 

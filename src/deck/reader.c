@@ -147,7 +147,8 @@ void reader_unknown(struct reader *reader, const struct deck_word *word, const c
     char shown[SHOWN];
     text_show(word, shown, sizeof shown);
     if (nearest)
-        diagnostics_error(reader->diagnostics, word->place, "unknown %s '%s'; did you mean '%s'?", kind, shown, nearest);
+        diagnostics_error(reader->diagnostics, word->place, "unknown %s '%s'; did you mean '%s'?", kind, shown,
+                          nearest);
     else
         diagnostics_error(reader->diagnostics, word->place, "unknown %s '%s'; see mpm3d --help%s%s", kind, shown,
                           *topic ? " " : "", topic);
@@ -168,7 +169,8 @@ static bool check_limit(struct reader *reader, const struct argument *argument, 
         return true;
     text_show(&value->word, shown, sizeof shown);
     if (!isfinite(value->real))
-        diagnostics_error(reader->diagnostics, value->word.place, "%s of %s is too large: %s", argument->name, owner, shown);
+        diagnostics_error(reader->diagnostics, value->word.place, "%s of %s is too large: %s", argument->name, owner,
+                          shown);
     else
         diagnostics_error(reader->diagnostics, value->word.place, "%s of %s must be %s, not %s", argument->name, owner,
                           argument_limit_text(argument->limit), shown);
@@ -228,8 +230,8 @@ bool reader_values(struct reader *reader, const struct argument *arguments, cons
         values[i] = (struct value){0};
         if (is_missing(reader, &arguments[i])) {
             if (good)
-                diagnostics_error(reader->diagnostics, text_behind(&reader->last), "%s lacks its %s; expected %s", owner,
-                                  arguments[i].name, kind_text(&arguments[i]));
+                diagnostics_error(reader->diagnostics, text_behind(&reader->last), "%s lacks its %s; expected %s",
+                                  owner, arguments[i].name, kind_text(&arguments[i]));
             return false;
         }
         take(reader, &values[i].word);
@@ -252,7 +254,7 @@ bool reader_check_id(struct reader *reader, const struct value *value, long coun
 {
     if (value->integer >= 1 && value->integer <= count)
         return true;
-    if (count > 0 && !misses_part(reader))
+    if ((count > 0 && !misses_part(reader)) || diagnostics_errors(reader->diagnostics) == 0)
         diagnostics_error(reader->diagnostics, value->word.place, "%s %ld does not exist; expected 1 to %ld", what,
                           value->integer, count);
     return false;
@@ -370,8 +372,8 @@ static void unexpected_number(struct reader *reader, const struct deck_word *wor
     char shown[SHOWN];
     text_show(word, shown, sizeof shown);
     if (before)
-        diagnostics_error(reader->diagnostics, word->place, "expected %s, found the number %s; '%s' takes no more", what,
-                          shown, before);
+        diagnostics_error(reader->diagnostics, word->place, "expected %s, found the number %s; '%s' takes no more",
+                          what, shown, before);
     else
         diagnostics_error(reader->diagnostics, word->place, "expected %s, found the number %s", what, shown);
     reader_skip_numbers(reader);
@@ -525,6 +527,7 @@ static void finish(struct reader *reader)
     reader_finish_grid(reader, end);
     reader_finish_materials(reader);
     reader_finish_targets(reader);
+    reader_finish_solving(reader);
     reader_finish_general(reader, end);
 }
 

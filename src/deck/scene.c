@@ -13,6 +13,8 @@ struct scene *scene_open(void)
     scene->bulk[1] = 0.06;
     scene->sorts = true;
     scene->digits = 7;
+    scene->settling[0] = 100;
+    scene->settling[1] = 0;
     return scene;
 }
 
@@ -28,6 +30,7 @@ void scene_close(struct scene *scene)
     memory_free(scene->bodies);
     memory_free(scene->loads);
     memory_free(scene->velocities);
+    memory_free(scene->detonations);
     memory_free(scene->results);
     memory_free(scene->curves);
     memory_free(scene);

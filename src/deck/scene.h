@@ -38,13 +38,22 @@ struct scene_load {
     struct deck_place place;
 };
 
-enum scene_velocity_kind { VELOCITY_PARTICLE, VELOCITY_BODY };
+enum scene_velocity_kind { VELOCITY_PARTICLE, VELOCITY_BODY, VELOCITY_SINE, VELOCITY_ROWS, VELOCITY_BENDING };
+
+enum contact_method { CONTACT_NONE, CONTACT_LAGRANGE, CONTACT_OTHER };
+
+/* How particles and grid are connected. */
+enum interpolation { INTERPOLATION_LINEAR, INTERPOLATION_GIMP, INTERPOLATION_GIMP_OWN, INTERPOLATION_BIMP, INTERPOLATION_STAGGERED };
 
 struct scene_velocity {
     enum scene_velocity_kind kind;
     long target;
     double value[3];
     struct deck_place place;
+};
+
+struct scene_point {
+    double position[3];
 };
 
 struct scene_curve {
@@ -67,6 +76,14 @@ struct scene {
     double mass_cutoff, cutoff_cell_size; /* the latter is the cell size when mate was read */
     enum scheme scheme;
     enum rotation rotation;
+    enum interpolation interpolation;
+    enum contact_method contact;
+    double contact_friction;
+    long contact_normal;     /* 0 both components', 1 the first's, 2 the second's */
+    bool is_total;           /* TLmp */
+    bool tracks_deformation; /* UVFp: volume from the deformation gradient */
+    double loading_time;     /* QuLo: loads grow up to this time; 0: at once */
+    double settling[2];      /* QuLo: least end time, latest end time */
     double bulk[2]; /* artificial viscosity: quadratic, linear */
     double damping; /* mass proportional, 1/time */
     bool kinetic_damping;
@@ -83,6 +100,8 @@ struct scene {
     size_t n_loads, loads_capacity;
     struct scene_velocity *velocities;
     size_t n_velocities, velocities_capacity;
+    struct scene_point *detonations;
+    size_t n_detonations, detonations_capacity;
     const struct result **results; /* of the animation file, after x y z mat */
     size_t n_results, results_capacity;
     struct scene_curve *curves; /* after engk and engi */

@@ -51,6 +51,7 @@ const struct law law_elas = {
                                             {0}},
     .columns = {COLUMN_NONE},
     .rotates = true,
+    .viscous_work = 1,
     .prepare = prepare,
     .update = update,
 };

@@ -24,6 +24,7 @@ void law_energy_after(const struct law_batch *batch)
 {
     const double size = batch->cell_size;
     const double quadratic = batch->bulk_quadratic * size * size / (batch->time_step * batch->time_step);
+    const double counted = 2 * batch->material->law->viscous_work;
     const double linear = batch->bulk_linear * size * batch->material->viscous_speed / batch->time_step;
 #pragma omp simd
     for (int j = 0; j < batch->count; j++) {
@@ -33,8 +34,16 @@ void law_energy_after(const struct law_batch *batch)
         double density = batch->mass[j] / batch->volume[j];
         double pressure = density * compression * (quadratic * compression - linear);
         double viscous = mean < 0 ? pressure : 0;
-        double work = batch->work[j] + stress_work(batch, j) - 2 * viscous * trace;
+        double work = batch->work[j] + stress_work(batch, j) - counted * viscous * trace;
         batch->viscous_pressure[j] = viscous;
         batch->energy[j] += 0.25 * (batch->volume_before[j] + batch->volume[j]) * work;
     }
+}
+
+THREADS_VECTORISED
+void law_eos_work_before(const struct law_batch *batch)
+{
+#pragma omp simd
+    for (int j = 0; j < batch->count; j++)
+        batch->work[j] = stress_work(batch, j) - batch->mean_stress[j] * batch->trace[j];
 }

@@ -12,6 +12,7 @@
 enum { LAW_PARAMETERS = 16 };
 
 struct law;
+struct eos;
 
 /* A material of the deck: a law with its numbers, and what follows from them once. */
 struct material {
@@ -23,6 +24,12 @@ struct material {
     double wave_speed;                /* limits the time step (spec 5) */
     double viscous_speed;             /* c of the linear artificial viscosity (spec 3.3) */
     double yield_stress;              /* initial */
+    double viscosity;                 /* of the shear part of fluids */
+    double detonation_speed;          /* 0: no explosive */
+    const struct eos *eos;            /* equation of state, or NULL */
+    double eos_constant[8];           /* in the order of its row, after its preparation */
+    double eos_number[LAW_PARAMETERS]; /* as the deck has them */
+    double initial_energy;            /* E0, per initial volume */
 };
 
 /* Points of one material in one step. Arrays have `count` entries; pointers of columns that the
@@ -31,13 +38,14 @@ struct law_batch {
     int count;
     const struct material *material;
     double time_step;
+    double time;
     double cell_size;
     double bulk_quadratic, bulk_linear; /* artificial viscosity b1, b2 */
     const double *restrict strain[6];   /* increments, engineering shears */
     const double *restrict spin[3];     /* spin increments w1, w2, w3 (spec 6.2) */
     const double *restrict trace;       /* volume strain increment */
     const double *restrict volume_before;
-    const double *restrict volume;
+    double *restrict volume;
     const double *restrict mass;
     double *restrict work;              /* room for one number a point */
     double *restrict stress[6];         /* in: rotated old stress; out: new stress */
@@ -45,6 +53,14 @@ struct law_batch {
     double *restrict viscous_pressure;  /* artificial viscosity pressure q */
     double *restrict plastic_strain;
     double *restrict yield_stress;
+    double *restrict mean_stress;       /* of laws with equation of state: minus pressure */
+    double *restrict equivalent_stress;
+    double *restrict temperature;
+    double *restrict damage;
+    double *restrict failed;
+    double *restrict lighting_time;
+    double *restrict deformation[9];    /* deformation gradient less 1, already that of this step */
+    double *restrict first_stress[9];   /* first Piola-Kirchhoff stress, total Lagrangian only */
 };
 
 /* A row of the table. */
@@ -54,6 +70,9 @@ struct law {
     const struct argument *parameters;
     enum column columns[8]; /* columns beyond those of every MPM scene, ended by COLUMN_NONE */
     bool rotates;           /* the old stress is rotated before the update (spec 6.3) */
+    bool needs_eos;         /* pressure and energy come from an equation of state (spec 6.7) */
+    bool keeps_equivalent;  /* writes the column of the von Mises stress itself */
+    double viscous_work;    /* how often the viscous work is counted (spec 6.6; 8.1 john) */
     const char *later;      /* not NULL: known word without its feature; says what is missing */
     /* Derives the fields of a material from its parameters. Returns NULL, or what is wrong. */
     const char *(*prepare)(struct material *material);
@@ -87,6 +106,9 @@ void law_rotate_exact(const struct law_batch *batch);
 void law_energy_before(const struct law_batch *batch);
 void law_energy_after(const struct law_batch *batch);
 
+/* The part of the work that takes the old deviator, before it is rotated (spec 6.7). */
+void law_eos_work_before(const struct law_batch *batch);
+
 /* The elastic trial stress: rotated old stress plus Hooke's increment of one point. */
 THREADS_INLINE void law_elastic_trial(const struct law_batch *batch, int j, double shear, double bulk, double trial[6])
 {
@@ -98,6 +120,6 @@ THREADS_INLINE void law_elastic_trial(const struct law_batch *batch, int j, doub
     }
 }
 
-extern const struct law law_elas, law_pla1, law_pla2;
+extern const struct law law_elas, law_pla1, law_pla2, law_john, law_sjc, law_sjcf, law_jcf, law_hiex, law_null, law_dpm, law_neoh;
 
 #endif

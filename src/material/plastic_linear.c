@@ -48,6 +48,7 @@ const struct law law_pla2 = {
                                             {0}},
     .columns = {COLUMN_PLASTIC_STRAIN, COLUMN_YIELD_STRESS, COLUMN_NONE},
     .rotates = true,
+    .viscous_work = 1,
     .prepare = prepare,
     .update = update,
 };

@@ -39,6 +39,7 @@ const struct law law_pla1 = {
                                             {0}},
     .columns = {COLUMN_PLASTIC_STRAIN, COLUMN_NONE},
     .rotates = true,
+    .viscous_work = 1,
     .prepare = prepare,
     .update = update,
 };

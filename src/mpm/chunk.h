@@ -21,8 +21,10 @@ struct workspace {
     double gathered[3][CHUNK_ROOM]; /* velocity or acceleration from the grid */
     double strain[6][CHUNK_ROOM], spin[3][CHUNK_ROOM], trace[CHUNK_ROOM];
     double volume_before[CHUNK_ROOM], work[CHUNK_ROOM];
-    double copy[24][CHUNK_ROOM]; /* columns of a portion that is not in one piece */
-    double patch[6][PATCH_NODES];
+    double copy[48][CHUNK_ROOM]; /* columns of a portion that is not in one piece */
+    double patch[8 * LARGEST_PATCH];
+    double weight[3][3][CHUNK_ROOM], slope[3][3][CHUNK_ROOM]; /* of wide supports, per axis and node */
+    int32_t base[CHUNK_ROOM];                                 /* their lowest node in the patch */
     uint8_t cell[CHUNK_ROOM];
 };
 
@@ -70,6 +72,22 @@ THREADS_INLINE void chunk_write(const struct chunk *chunk, double *column, const
         return;
     for (int32_t j = 0; j < chunk->count; j++)
         column[chunk->order[j]] = copy[j];
+}
+
+/* Strain and spin increments and trace of particle j from its velocity gradient times the step
+ * g[component][axis] (spec 6.2). */
+THREADS_INLINE void chunk_set_gradient(struct workspace *w, int32_t j, double g[3][3])
+{
+    w->strain[0][j] = g[0][0];
+    w->strain[1][j] = g[1][1];
+    w->strain[2][j] = g[2][2];
+    w->strain[3][j] = g[2][1] + g[1][2];
+    w->strain[4][j] = g[0][2] + g[2][0];
+    w->strain[5][j] = g[1][0] + g[0][1];
+    w->spin[0][j] = 0.5 * (g[2][1] - g[1][2]);
+    w->spin[1][j] = 0.5 * (g[0][2] - g[2][0]);
+    w->spin[2][j] = 0.5 * (g[1][0] - g[0][1]);
+    w->trace[j] = g[0][0] + g[1][1] + g[2][2];
 }
 
 /* Low corner of a cell of the chunk's block, along axis a. */

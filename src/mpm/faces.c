@@ -149,13 +149,13 @@ void faces_scatter(struct mpm *mpm, int force_field)
             locate(mpm, face, point);
             if (point->block < 0)
                 continue;
-            double(*patch)[PATCH_NODES] = grid_patch(mpm->grid, point->block) + force_field;
+            const int edge = mpm->grid->layout.edge;
             for (int corner = 0; corner < 8; corner++) {
-                int node = grid_patch_corner(point->cell) + (corner & 1)
-                         + PATCH_EDGE * ((corner >> 1 & 1) + PATCH_EDGE * (corner >> 2));
-                double weight = corner_weight(face, point, corner) * point->area;
+                int node = grid_patch_corner(point->cell, edge, mpm->grid->layout.origin) + (corner & 1)
+                         + edge * ((corner >> 1 & 1) + edge * (corner >> 2));
+                double weight = mpm->load_factor * corner_weight(face, point, corner) * point->area;
                 for (int a = 0; a < 3; a++)
-                    patch[a][node] += weight * face->traction[a];
+                    grid_patch(mpm->grid, point->block, force_field + a)[node] += weight * face->traction[a];
             }
         }
     }
@@ -171,7 +171,7 @@ double faces_work(const struct mpm *mpm)
             for (int corner = 0; corner < 8 && point->block >= 0; corner++) {
                 int node;
                 int32_t block = corner_node(mpm, point, corner, &node);
-                double weight = corner_weight(face, point, corner) * point->area;
+                double weight = mpm->load_factor * corner_weight(face, point, corner) * point->area;
                 for (int a = 0; a < 3; a++)
                     work += weight * face->traction[a] * grid_field(mpm->grid, block, NODE_MOMENTUM + a)[node];
             }

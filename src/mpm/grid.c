@@ -5,15 +5,47 @@
 
 #include <string.h>
 
-struct grid *grid_open(const struct cell_list *cells, const long boundary[6], int boundary_layers, double mass_cutoff)
+/* Fewer blocks than this are not worth a second thread. */
+enum { SHARED_BLOCKS = 32 };
+
+/* Part of a patch along an axis: `count` nodes from `node` of the neighbour `offset` blocks further,
+ * at `place` in the patch. */
+struct span {
+    int offset, node, count, place;
+};
+
+/* The rows of a patch: all triples of spans, their nodes along x side by side. */
+static struct patch_layout lay_out(int low, int high)
+{
+    const struct span all[] = {{-1, BLOCK_EDGE - 1, 1, 0}, {0, 0, BLOCK_EDGE, low}, {1, 0, high, low + BLOCK_EDGE}};
+    const struct span *spans = low > 0 ? all : all + 1;
+    const int n = low > 0 ? 3 : 2, edge = low + BLOCK_EDGE + high;
+    struct patch_layout layout = {edge, (edge * edge * edge + 8) / 8 * 8, low, 0, {{0}}};
+    for (int triple = 0; triple < n * n * n; triple++) {
+        const struct span *x = &spans[triple % n], *y = &spans[triple / n % n], *z = &spans[triple / (n * n)];
+        for (int k = 0; k < z->count; k++)
+            for (int j = 0; j < y->count; j++)
+                layout.rows[layout.n_rows++] = (struct patch_row){
+                    (1 + x->offset) + 3 * (1 + y->offset) + 9 * (1 + z->offset),
+                    (1 - x->offset) + 3 * (1 - y->offset) + 9 * (1 - z->offset),
+                    x->node + BLOCK_EDGE * (y->node + j + BLOCK_EDGE * (z->node + k)),
+                    x->place + edge * (y->place + j + edge * (z->place + k)), x->count};
+    }
+    return layout;
+}
+
+struct grid *grid_open(const struct cell_list *cells, struct grid_form form, const long boundary[6], double mass_cutoff)
 {
     struct grid *grid = memory_array(1, sizeof *grid, "the grid");
     grid->cells = cells;
     for (int a = 0; a < 3; a++)
         grid->nodes[a] = cells->frame.cells[a] + 1;
     memcpy(grid->boundary, boundary, sizeof grid->boundary);
-    grid->boundary_layers = boundary_layers;
+    grid->boundary_layers = form.boundary_layers;
     grid->mass_cutoff = mass_cutoff;
+    grid->layout = lay_out(form.low, form.high);
+    grid->fields = form.fields;
+    grid->patch_fields = form.patch_fields;
     grid->version = -1;
     return grid;
 }
@@ -35,7 +67,9 @@ static uint8_t fixed_directions(const struct grid *grid, const int32_t node[3])
     for (int face = 0; face < 6; face++) {
         int axis = face / 2;
         int32_t from_face = face % 2 ? grid->nodes[axis] - 1 - node[axis] : node[axis];
-        if (from_face < 0 || from_face >= grid->boundary_layers)
+        if (from_face < 0)
+            return 7; /* no node of the grid: what wide supports give to it is dropped (spec 7.2) */
+        if (from_face >= grid->boundary_layers)
             continue;
         if (grid->boundary[face] == 1)
             fixed = 7;
@@ -62,8 +96,8 @@ void grid_follow(struct grid *grid)
         return;
     grid->version = cells->version;
     size_t blocks = (size_t)cells->n_blocks;
-    grid->node = replace(grid->node, &grid->node_capacity, blocks * NODE_FIELDS * BLOCK_CELLS);
-    grid->patch = replace(grid->patch, &grid->patch_capacity, (size_t)cells->active * PATCH_FIELDS * PATCH_NODES);
+    grid->node = replace(grid->node, &grid->node_capacity, blocks * (size_t)grid->fields * BLOCK_CELLS);
+    grid->patch = replace(grid->patch, &grid->patch_capacity, (size_t)cells->active * (size_t)grid->patch_fields * (size_t)grid->layout.nodes);
     grid->fixed = memory_grow(grid->fixed, &grid->fixed_capacity, blocks * BLOCK_CELLS, 1, "grid nodes");
 #pragma omp parallel for schedule(static)
     for (size_t b = 0; b < blocks; b++)
@@ -75,89 +109,97 @@ void grid_follow(struct grid *grid)
         }
 }
 
-/* Index of the neighbour dx, dy, dz blocks further up. */
-static inline int upper_neighbour(int dx, int dy, int dz)
-{
-    return (dx + 1) + 3 * (dy + 1) + 9 * (dz + 1);
-}
-
 /* The nodes of a row in one block. */
 typedef double four __attribute__((vector_size(BLOCK_EDGE * sizeof(double)), aligned(sizeof(double)), may_alias));
 
-/* A row of five patch nodes: four in one block, the fifth in the block above it in x. */
-struct patch_row {
-    size_t near, far; /* of field 0, in grid.node */
-    int place;        /* in the patch */
-};
-
-/* The rows of a block's patch, without those in blocks that are missing: these lie beyond the
- * grid's end, and no particle reaches them. Returns the number of rows. */
-static int find_rows(const struct grid *grid, int32_t block, struct patch_row rows[PATCH_EDGE * PATCH_EDGE])
+THREADS_VECTORISED
+void grid_read_patch(const struct grid *grid, int32_t block, int first, int count, double *patch)
 {
     const int32_t *neighbour = grid->cells->blocks[block].neighbour;
-    int count = 0;
-    for (int k = 0; k < PATCH_EDGE; k++)
-        for (int j = 0; j < PATCH_EDGE; j++) {
-            int dy = j == BLOCK_EDGE, dz = k == BLOCK_EDGE;
-            size_t row = (size_t)(BLOCK_EDGE * ((j - BLOCK_EDGE * dy) + BLOCK_EDGE * (k - BLOCK_EDGE * dz)));
-            int32_t near = neighbour[upper_neighbour(0, dy, dz)], far = neighbour[upper_neighbour(1, dy, dz)];
-            if (near < 0)
-                continue;
-            size_t stride = (size_t)NODE_FIELDS * BLOCK_CELLS;
-            rows[count++] = (struct patch_row){(size_t)near * stride + row,
-                                               far < 0 ? SIZE_MAX : (size_t)far * stride + row,
-                                               PATCH_EDGE * (j + PATCH_EDGE * k)};
-        }
-    return count;
-}
-
-THREADS_VECTORISED
-void grid_read_patch(const struct grid *grid, int32_t block, int first, int count, double patch[][PATCH_NODES])
-{
-    struct patch_row rows[PATCH_EDGE * PATCH_EDGE];
-    int n_rows = find_rows(grid, block, rows);
-    for (int f = 0; f < count; f++) {
-        const double *node = grid->node + (size_t)(first + f) * BLOCK_CELLS;
-        for (int r = 0; r < n_rows; r++) {
-            double *target = patch[f] + rows[r].place;
-            *(four *)target = *(const four *)(node + rows[r].near);
-            target[BLOCK_EDGE] = rows[r].far == SIZE_MAX ? 0 : node[rows[r].far];
-        }
-    }
-}
-
-/* Adds to a block's nodes what one of the blocks below it (or itself) has for them. Along an axis
- * the block itself has nodes 0 ... 3, the one below it its last patch node for node 0. */
-static inline void add_neighbour(double *restrict node, const double *restrict patch, int dx, int dy, int dz)
-{
-    int nj = dy ? 1 : BLOCK_EDGE, nk = dz ? 1 : BLOCK_EDGE;
-    const double *corner = patch + BLOCK_EDGE * (dx + PATCH_EDGE * (dy + PATCH_EDGE * dz));
-    for (int k = 0; k < nk; k++)
-        for (int j = 0; j < nj; j++) {
-            double *target = node + BLOCK_EDGE * (j + BLOCK_EDGE * k);
-            const double *source = corner + PATCH_EDGE * (j + PATCH_EDGE * k);
-            if (dx)
-                target[0] += source[0];
+    const struct patch_row *end = grid->layout.rows + grid->layout.n_rows;
+    for (const struct patch_row *row = grid->layout.rows; row < end; row++) {
+        const int32_t source = neighbour[row->neighbour];
+        for (int f = 0; f < count; f++) {
+            double *to = patch + f * grid->layout.nodes + row->place;
+            const double *from = source < 0 ? NULL : grid_field(grid, source, first + f) + row->node;
+            if (row->count == BLOCK_EDGE && from)
+                *(four *)to = *(const four *)from;
             else
-                *(four *)target += *(const four *)source;
+                for (int i = 0; i < row->count; i++)
+                    to[i] = from ? from[i] : 0;
         }
-}
-
-/* Sums the patches' fields 0 ... count-1 into the node fields from `first` of a block. */
-THREADS_VECTORISED
-static void collect(struct grid *grid, int32_t b, int first, int count)
-{
-    memset(grid_field(grid, b, first), 0, (size_t)count * BLOCK_CELLS * sizeof(double));
-    for (int i = 0; i < 8; i++) {
-        int dx = i & 1, dy = i >> 1 & 1, dz = i >> 2;
-        int32_t source = grid->cells->blocks[b].neighbour[(1 - dx) + 3 * (1 - dy) + 9 * (1 - dz)];
-        for (int f = 0; f < count && source >= 0 && source < grid->cells->active; f++)
-            add_neighbour(grid_field(grid, b, first + f), grid_patch(grid, source)[f], dx, dy, dz);
     }
 }
 
 THREADS_VECTORISED
-static void integrate_block(struct grid *grid, int32_t b, double step)
+void grid_collect(struct grid *grid, int32_t b, int first, int count, int from_field)
+{
+    const int32_t *neighbour = grid->cells->blocks[b].neighbour;
+    const struct patch_row *end = grid->layout.rows + grid->layout.n_rows;
+    memset(grid_field(grid, b, first), 0, (size_t)count * BLOCK_CELLS * sizeof(double));
+    for (const struct patch_row *row = grid->layout.rows; row < end; row++) {
+        const int32_t source = neighbour[row->mirrored];
+        if (source < 0 || source >= grid->cells->active)
+            continue;
+        for (int f = 0; f < count; f++) {
+            const double *from = grid_patch(grid, source, from_field + f) + row->place;
+            double *to = grid_field(grid, b, first + f) + row->node;
+            if (row->count == BLOCK_EDGE)
+                *(four *)to += *(const four *)from;
+            else
+                for (int i = 0; i < row->count; i++)
+                    to[i] += from[i];
+        }
+    }
+}
+
+/* P += F step; both zero in fixed directions. */
+static void advance_block(struct grid *grid, int32_t b, double step)
+{
+    const uint8_t *fixed = grid->fixed + (size_t)b * BLOCK_CELLS;
+    for (int a = 0; a < 3; a++) {
+        double *momentum = grid_field(grid, b, NODE_MOMENTUM + a), *force = grid_field(grid, b, NODE_FORCE + a);
+        for (int n = 0; n < BLOCK_CELLS; n++) {
+            bool is_fixed = fixed[n] >> a & 1;
+            momentum[n] = is_fixed ? 0 : momentum[n] + force[n] * step;
+            force[n] = is_fixed ? 0 : force[n];
+        }
+    }
+}
+
+void grid_integrate_momentum(struct grid *grid, int first, int count, double step)
+{
+    const int32_t blocks = grid->cells->n_blocks;
+#pragma omp parallel for schedule(static) if (blocks >= SHARED_BLOCKS)
+    for (int32_t b = 0; b < blocks; b++) {
+        grid_collect(grid, b, first, count - 3, 0);
+        grid_collect(grid, b, NODE_NORMAL, 3, count - 3);
+        advance_block(grid, b, step);
+    }
+}
+
+THREADS_VECTORISED
+static void divide_block(struct grid *grid, int32_t b)
+{
+    const double *restrict mass = grid_field(grid, b, NODE_MASS);
+    const double cutoff = grid->mass_cutoff;
+    for (int f = NODE_MOMENTUM; f < NODE_STRAINING; f++) {
+        double *restrict value = grid_field(grid, b, f);
+        for (int n = 0; n < BLOCK_CELLS; n++)
+            value[n] = mass[n] > cutoff ? value[n] / (mass[n] > cutoff ? mass[n] : 1) : 0;
+    }
+}
+
+void grid_divide(struct grid *grid)
+{
+    const int32_t blocks = grid->cells->n_blocks;
+#pragma omp parallel for schedule(static) if (blocks >= SHARED_BLOCKS)
+    for (int32_t b = 0; b < blocks; b++)
+        divide_block(grid, b);
+}
+
+THREADS_VECTORISED
+void grid_integrate_block(struct grid *grid, int32_t b, double step)
 {
     const double *restrict mass = grid_field(grid, b, NODE_MASS);
     const uint8_t *restrict fixed = grid->fixed + (size_t)b * BLOCK_CELLS;
@@ -176,21 +218,18 @@ static void integrate_block(struct grid *grid, int32_t b, double step)
     }
 }
 
-/* Fewer blocks than this are not worth a second thread. */
-enum { SHARED_BLOCKS = 32 };
-
 void grid_integrate(struct grid *grid, int first, int count, double step)
 {
     const int32_t blocks = grid->cells->n_blocks;
 #pragma omp parallel for schedule(static) if (blocks >= SHARED_BLOCKS)
     for (int32_t b = 0; b < blocks; b++) {
-        collect(grid, b, first, count);
-        integrate_block(grid, b, step);
+        grid_collect(grid, b, first, count, 0);
+        grid_integrate_block(grid, b, step);
     }
 }
 
 THREADS_VECTORISED
-static void straining_block(struct grid *grid, int32_t b, int source)
+void grid_straining_block(struct grid *grid, int32_t b, int source)
 {
     const double *restrict mass = grid_field(grid, b, NODE_MASS);
     const uint8_t *restrict fixed = grid->fixed + (size_t)b * BLOCK_CELLS;
@@ -211,8 +250,8 @@ void grid_straining_velocity(struct grid *grid, int first, int count)
     const int source = first == NODE_MASS ? NODE_MOMENTUM : first;
 #pragma omp parallel for schedule(static) if (blocks >= SHARED_BLOCKS)
     for (int32_t b = 0; b < blocks; b++) {
-        collect(grid, b, first, count);
-        straining_block(grid, b, source);
+        grid_collect(grid, b, first, count, 0);
+        grid_straining_block(grid, b, source);
     }
 }
 

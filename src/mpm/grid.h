@@ -12,11 +12,29 @@ enum node_field {
     NODE_MOMENTUM, /* x y z; the velocity P/m once the momentum equation is integrated */
     NODE_FORCE = NODE_MOMENTUM + 3, /* x y z; then the acceleration F/m */
     NODE_STRAINING = NODE_FORCE + 3, /* x y z: momentum, then velocity, that strains the particles */
-    NODE_FIELDS = NODE_STRAINING + 3
+    NODE_NORMAL = NODE_STRAINING + 3, /* x y z: sum of mass times gradient; only with contact */
+    NODE_FIELDS = NODE_NORMAL,        /* without contact */
+    NODE_FIELDS_CONTACT = NODE_NORMAL + 3
 };
 
-/* A patch is a block's nodes with those of its neighbours that its cells touch: 5 x 5 x 5. */
-enum { PATCH_EDGE = BLOCK_EDGE + 1, PATCH_NODES = 128, PATCH_FIELDS = 7 };
+/* A patch is a block's nodes with those of its neighbours that its particles reach: nodes 0 ... 4
+ * along each axis for supports of a cell, -1 ... 5 for wider ones. */
+enum { PATCH_FIELDS = 7, PATCH_FIELDS_CONTACT = 10, LARGEST_PATCH = 344 };
+
+/* Nodes that lie side by side in one block and in the patch. */
+struct patch_row {
+    int neighbour; /* index of the block among the neighbours */
+    int mirrored;  /* seen from that block: index of the block whose patch this is */
+    int node, place, count;
+};
+
+struct patch_layout {
+    int edge;   /* nodes along an axis */
+    int nodes;  /* numbers to keep for a field: edge^3, rounded up */
+    int origin; /* place of the block's own node 0 along an axis */
+    int n_rows;
+    struct patch_row rows[160];
+};
 
 struct grid {
     const struct cell_list *cells;
@@ -24,14 +42,24 @@ struct grid {
     long boundary[6];
     int boundary_layers; /* the codes act on this many outermost node layers */
     double mass_cutoff;
-    double *node;   /* [block][field][64] */
-    double *patch;  /* [active block][PATCH_FIELDS][PATCH_NODES]: what its particles give to nodes */
+    double *node;   /* [block][fields][64] */
+    double *patch;  /* [active block][patch_fields][layout.nodes]: what its particles give to nodes */
+    struct patch_layout layout;
+    int fields, patch_fields; /* kept for each node and patch */
     uint8_t *fixed; /* [block][64], bits 1 2 4 for x y z */
     size_t node_capacity, patch_capacity, fixed_capacity;
     long version;
 };
 
-struct grid *grid_open(const struct cell_list *cells, const long boundary[6], int boundary_layers, double mass_cutoff);
+/* What a grid is made for. Along an axis a block's patch has `low` nodes (0 or 1) below its own, and
+ * `high` (1 or 2) above. */
+struct grid_form {
+    int low, high;
+    int fields, patch_fields;
+    int boundary_layers;
+};
+
+struct grid *grid_open(const struct cell_list *cells, struct grid_form form, const long boundary[6], double mass_cutoff);
 void grid_close(struct grid *grid);
 
 /* Follows a change of the blocks of the cell list. */
@@ -40,24 +68,29 @@ void grid_follow(struct grid *grid);
 /* The 64 values of a field in a block. */
 THREADS_INLINE double *grid_field(const struct grid *grid, int32_t block, int field)
 {
-    return grid->node + ((size_t)block * NODE_FIELDS + (size_t)field) * BLOCK_CELLS;
+    return grid->node + ((size_t)block * (size_t)grid->fields + (size_t)field) * BLOCK_CELLS;
 }
 
-/* Where a block's particles put what they give to node fields: PATCH_FIELDS fields in the order of
- * the pass. No other block writes there; collecting sums the patches in a fixed order. */
-static inline double (*grid_patch(const struct grid *grid, int32_t block))[PATCH_NODES]
+/* Where a block's particles put what they give to field f of a pass: no other block writes there;
+ * collecting sums the patches in a fixed order. */
+THREADS_INLINE double *grid_patch(const struct grid *grid, int32_t block, int f)
 {
-    return (double(*)[PATCH_NODES])(grid->patch + (size_t)block * PATCH_FIELDS * PATCH_NODES);
+    return grid->patch + ((size_t)block * (size_t)grid->patch_fields + (size_t)f) * (size_t)grid->layout.nodes;
 }
 
-/* Copies `count` fields from `first` of a block's patch of nodes to patch[0 ... count-1]. */
-void grid_read_patch(const struct grid *grid, int32_t block, int first, int count, double patch[][PATCH_NODES]);
+/* Copies `count` fields from `first` of a block's patch of nodes to patch[0 ... count-1], each of
+ * layout.nodes numbers. */
+void grid_read_patch(const struct grid *grid, int32_t block, int first, int count, double *patch);
 
-/* Place in a patch of the low corner of cell c of the block. */
-THREADS_INLINE int grid_patch_corner(int c)
+/* Place in a patch of edge `edge` of the low corner of cell c of the block. */
+THREADS_INLINE int grid_patch_corner(int c, int edge, int origin)
 {
-    return c % BLOCK_EDGE + PATCH_EDGE * (c / BLOCK_EDGE % BLOCK_EDGE) + PATCH_EDGE * PATCH_EDGE * (c / (BLOCK_EDGE * BLOCK_EDGE));
+    int i = c % BLOCK_EDGE + origin, j = c / BLOCK_EDGE % BLOCK_EDGE + origin, k = c / (BLOCK_EDGE * BLOCK_EDGE) + origin;
+    return i + edge * (j + edge * k);
 }
+
+/* Sums the patches' fields from `from_field` on into `count` node fields from `first` of a block. */
+void grid_collect(struct grid *grid, int32_t block, int first, int count, int from_field);
 
 /* The passes below sum fields 0 ... count-1 of the patches into `count` node fields from `first`,
  * and go on with each block at once. */
@@ -66,9 +99,18 @@ THREADS_INLINE int grid_patch_corner(int c)
  * above the cutoff, zero elsewhere. */
 void grid_integrate(struct grid *grid, int first, int count, double step);
 
+/* The same in two parts, with room for contact between them: momentum and force as such, and their
+ * division by the mass. The last three of the fields summed are the normals. */
+void grid_integrate_momentum(struct grid *grid, int first, int count, double step);
+void grid_divide(struct grid *grid);
+
 /* Straining velocity from the momentum fields at `first` + 0, 1, 2 of those summed (the mass comes
  * first when it is among them), zero in fixed directions. */
 void grid_straining_velocity(struct grid *grid, int first, int count);
+
+/* What these passes do with one block once its nodes are summed. */
+void grid_integrate_block(struct grid *grid, int32_t block, double step);
+void grid_straining_block(struct grid *grid, int32_t block, int source);
 
 /* Bytes of the node storage. */
 size_t grid_bytes(const struct grid *grid);

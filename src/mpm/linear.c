@@ -10,7 +10,7 @@
 
 /* Four nodes of a cell's lower or upper face, in the order (0,0) (1,0) (0,1) (1,1) of x and y; a
  * cell's eight nodes are a pair of them. */
-enum { FACE_NODES = 4, LOWER = 0, UPPER = 1, FACES = 2 };
+enum { FACE_NODES = 4, LOWER = 0, UPPER = 1, FACES = 2, PATCH_EDGE = BLOCK_EDGE + 1, PATCH_NODES = 128 };
 
 typedef lanes face;
 
@@ -22,10 +22,22 @@ static const int corner_offset[FACES][FACE_NODES] = {
 /* Along x and y a node's weight is low + sign * local coordinate. */
 static const face sign_x = {-1, 1, -1, 1}, sign_y = {-1, -1, 1, 1}, low_x = {1, 0, 1, 0}, low_y = {1, 1, 0, 0};
 
+/* Where the block's particles put what they give to nodes. */
+THREADS_INLINE double (*patch_of(const struct mpm *mpm, int32_t b))[PATCH_NODES]
+{
+    return (double(*)[PATCH_NODES])grid_patch(mpm->grid, b, 0);
+}
+
+/* The node values that a pass over a block reads. */
+THREADS_INLINE double (*values_of(const struct workspace *workspace, int field))[PATCH_NODES]
+{
+    return (double(*)[PATCH_NODES])(workspace->patch + field * PATCH_NODES);
+}
+
 /* --- particles to grid (thesis steps 1 and 4) --- */
 
 /* Adds what a cell's nodes got to the patch. */
-THREADS_INLINE void add_corners(double patch[][PATCH_NODES], int base, face sum[][FACES], int count)
+THREADS_INLINE void add_corners(double (*patch)[PATCH_NODES], int base, face sum[][FACES], int count)
 {
     for (int f = 0; f < count; f++)
         for (int half = 0; half < FACES; half++)
@@ -33,17 +45,18 @@ THREADS_INLINE void add_corners(double patch[][PATCH_NODES], int base, face sum[
                 patch[f][base + corner_offset[half][i]] += sum[f][half][i];
 }
 
-/* Mass, momentum and force of one cell's particles. `sum` holds mass, momentum, force. */
+/* Mass, momentum and force of one cell's particles, and the normals that contact needs. `sum` holds
+ * them in this order. */
 THREADS_INLINE void scatter_cell(const struct mpm *mpm, const int32_t *order, int32_t count, const double cell_low[3],
-                                 face sum[7][FACES], bool momentum, bool force, bool external)
+                                 face sum[10][FACES], bool momentum, bool force, bool external, bool normals)
 {
     const struct store *store = mpm->store;
     const double inverse = 1 / mpm->cells->frame.size;
     for (int32_t k = 0; k < count; k++) {
         size_t p = (size_t)order[k];
-        double x = (store->real[COLUMN_POSITION][0][p] - cell_low[0]) * inverse;
-        double y = (store->real[COLUMN_POSITION][1][p] - cell_low[1]) * inverse;
-        double upper = (store->real[COLUMN_POSITION][2][p] - cell_low[2]) * inverse, lower = 1 - upper;
+        double x = (store->real[mpm->place][0][p] - cell_low[0]) * inverse;
+        double y = (store->real[mpm->place][1][p] - cell_low[1]) * inverse;
+        double upper = (store->real[mpm->place][2][p] - cell_low[2]) * inverse, lower = 1 - upper;
         face weight_x = low_x + sign_x * x, weight_y = low_y + sign_y * y;
         face flat = weight_x * weight_y;
         face n_lower = flat * lower, n_upper = flat * upper;
@@ -61,24 +74,27 @@ THREADS_INLINE void scatter_cell(const struct mpm *mpm, const int32_t *order, in
             sum[3][UPPER] += n_upper * pz;
         }
         if (force) {
-            double volume = -store->real[COLUMN_VOLUME][0][p] * inverse;
-            double viscous = store->real[COLUMN_VISCOUS_PRESSURE][0][p];
-            double xx = volume * (store->real[COLUMN_STRESS][0][p] - viscous);
-            double yy = volume * (store->real[COLUMN_STRESS][1][p] - viscous);
-            double zz = volume * (store->real[COLUMN_STRESS][2][p] - viscous);
-            double yz = volume * store->real[COLUMN_STRESS][3][p];
-            double xz = volume * store->real[COLUMN_STRESS][4][p];
-            double xy = volume * store->real[COLUMN_STRESS][5][p];
+            double t[3][3];
+            mpm_force_stress(mpm, p, t);
             face slope_x = sign_x * weight_y, slope_y = sign_y * weight_x;
-            face along_x = slope_x * xx + slope_y * xy, across_x = flat * xz;
-            face along_y = slope_x * xy + slope_y * yy, across_y = flat * yz;
-            face along_z = slope_x * xz + slope_y * yz, across_z = flat * zz;
+            face along_x = slope_x * t[0][0] + slope_y * t[0][1], across_x = flat * t[0][2];
+            face along_y = slope_x * t[1][0] + slope_y * t[1][1], across_y = flat * t[1][2];
+            face along_z = slope_x * t[2][0] + slope_y * t[2][1], across_z = flat * t[2][2];
             sum[4][LOWER] += along_x * lower - across_x;
             sum[4][UPPER] += along_x * upper + across_x;
             sum[5][LOWER] += along_y * lower - across_y;
             sum[5][UPPER] += along_y * upper + across_y;
             sum[6][LOWER] += along_z * lower - across_z;
             sum[6][UPPER] += along_z * upper + across_z;
+            if (normals) {
+                double scaled = store->real[COLUMN_MASS][0][p] * inverse;
+                sum[7][LOWER] += slope_x * (scaled * lower);
+                sum[7][UPPER] += slope_x * (scaled * upper);
+                sum[8][LOWER] += slope_y * (scaled * lower);
+                sum[8][UPPER] += slope_y * (scaled * upper);
+                sum[9][LOWER] -= flat * scaled;
+                sum[9][UPPER] += flat * scaled;
+            }
             if (external) {
                 double f[3];
                 mpm_external_force(mpm, p, f);
@@ -93,11 +109,12 @@ THREADS_INLINE void scatter_cell(const struct mpm *mpm, const int32_t *order, in
 
 /* Asks for the particles that follow in memory: a cell's pass is too short for the processor to
  * see that the columns are read in order. */
-THREADS_INLINE void prefetch_particles(const struct store *store, int32_t p, bool momentum, bool force)
+THREADS_INLINE void prefetch_particles(const struct mpm *mpm, int32_t p, bool momentum, bool force)
 {
+    const struct store *store = mpm->store;
     enum { AHEAD = 24 };
     for (int a = 0; a < 3; a++) {
-        __builtin_prefetch(store->real[COLUMN_POSITION][a] + p + AHEAD);
+        __builtin_prefetch(store->real[mpm->place][a] + p + AHEAD);
         if (momentum)
             __builtin_prefetch(store->real[COLUMN_VELOCITY][a] + p + AHEAD);
     }
@@ -110,58 +127,66 @@ THREADS_INLINE void prefetch_particles(const struct store *store, int32_t p, boo
     }
 }
 
-THREADS_INLINE void scatter_block(struct mpm *mpm, int32_t b, bool momentum, bool force,
-                                                                bool external)
+THREADS_INLINE void scatter_block(struct mpm *mpm, int32_t b, bool momentum, bool force, bool external, bool normals)
 {
     const struct cell_block *block = &mpm->cells->blocks[b];
-    double(*patch)[PATCH_NODES] = grid_patch(mpm->grid, b);
-    const int fields = 4 * momentum + 3 * force;
+    double(*patch)[PATCH_NODES] = patch_of(mpm, b);
+    const int fields = 4 * momentum + 3 * force + 3 * normals;
     struct chunk chunk = {.block = block};
-    memset(patch, 0, (size_t)fields * sizeof patch[0]);
+    memset(patch, 0, (size_t)fields * sizeof *patch);
     for (int c = 0; c < BLOCK_CELLS; c++) {
         int32_t from = block->cell_first[c], count = block->cell_first[c + 1] - from;
         if (count == 0)
             continue;
-        face sum[7][FACES];
+        face sum[10][FACES];
         double cell_low[3];
-        for (int f = 0; f < 7; f++)
+        for (int f = 0; f < 7 + 3 * normals; f++)
             sum[f][LOWER] = sum[f][UPPER] = (face){0};
         for (int a = 0; a < 3; a++)
             cell_low[a] = chunk_cell_low(mpm, &chunk, c, a);
-        prefetch_particles(mpm->store, mpm->cells->order[block->first + from], momentum, force);
-        scatter_cell(mpm, mpm->cells->order + block->first + from, count, cell_low, sum, momentum, force, external);
-        add_corners(patch, grid_patch_corner(c), momentum ? sum : sum + 4, fields);
+        prefetch_particles(mpm, mpm->cells->order[block->first + from], momentum, force);
+        scatter_cell(mpm, mpm->cells->order + block->first + from, count, cell_low, sum, momentum, force, external,
+                     normals);
+        add_corners(patch, grid_patch_corner(c, PATCH_EDGE, 0), momentum ? sum : sum + 4, fields);
     }
 }
 
 THREADS_VECTORISED
 static void scatter_all(struct mpm *mpm, int32_t b)
 {
-    scatter_block(mpm, b, true, true, false);
+    scatter_block(mpm, b, true, true, false, false);
 }
 
 THREADS_VECTORISED
 static void scatter_all_external(struct mpm *mpm, int32_t b)
 {
-    scatter_block(mpm, b, true, true, true);
+    scatter_block(mpm, b, true, true, true, false);
 }
 
 THREADS_VECTORISED
 static void scatter_momentum(struct mpm *mpm, int32_t b)
 {
-    scatter_block(mpm, b, true, false, false);
+    scatter_block(mpm, b, true, false, false, false);
 }
 
 THREADS_VECTORISED
 static void scatter_force(struct mpm *mpm, int32_t b)
 {
-    scatter_block(mpm, b, false, true, true);
+    scatter_block(mpm, b, false, true, true, false);
+}
+
+THREADS_VECTORISED
+static void scatter_contact(struct mpm *mpm, int32_t b, bool momentum)
+{
+    scatter_block(mpm, b, momentum, true, true, true);
 }
 
 static void scatter(struct mpm *mpm, int32_t b, bool momentum, bool force)
 {
     if (!force)
         scatter_momentum(mpm, b);
+    else if (mpm->contact)
+        scatter_contact(mpm, b, momentum);
     else if (!momentum)
         scatter_force(mpm, b);
     else if (mpm->has_external_force)
@@ -224,12 +249,12 @@ THREADS_INLINE void find_local(const struct mpm *mpm, const struct chunk *chunk,
 }
 
 /* Evaluates three fields of the patch at the chunk's particles, into workspace.gathered. */
-THREADS_INLINE void gather_values(const struct chunk *chunk, double patch[][PATCH_NODES])
+THREADS_INLINE void gather_values(const struct chunk *chunk, double (*patch)[PATCH_NODES])
 {
     struct workspace *w = chunk->workspace;
     for (struct cell_walk walk = {0}; walk_next(chunk, &walk);)
         for (int a = 0; a < 3; a++) {
-            struct polynomial c = polynomial_of(patch[a], grid_patch_corner(walk.cell));
+            struct polynomial c = polynomial_of(patch[a], grid_patch_corner(walk.cell, PATCH_EDGE, 0));
             for (int32_t j = walk.from; j < walk.to; j += LANES) {
                 lanes x = *(lanes *)&w->local[0][j], y = *(lanes *)&w->local[1][j], z = *(lanes *)&w->local[2][j];
                 *(lanes *)&w->gathered[a][j] = (c.one + c.x * x) + y * (c.y + c.xy * x)
@@ -239,11 +264,11 @@ THREADS_INLINE void gather_values(const struct chunk *chunk, double patch[][PATC
 }
 
 /* Strain and spin increments and their trace (spec 6.2) from the straining velocities of the patch. */
-THREADS_INLINE void gather_gradient(const struct chunk *chunk, double patch[][PATCH_NODES], double scale)
+THREADS_INLINE void gather_gradient(const struct chunk *chunk, double (*patch)[PATCH_NODES], double scale)
 {
     struct workspace *w = chunk->workspace;
     for (struct cell_walk walk = {0}; walk_next(chunk, &walk);) {
-        int base = grid_patch_corner(walk.cell);
+        int base = grid_patch_corner(walk.cell, PATCH_EDGE, 0);
         struct polynomial u = polynomial_of(patch[0], base), v = polynomial_of(patch[1], base),
                           t = polynomial_of(patch[2], base);
         for (int32_t j = walk.from; j < walk.to; j += LANES) {
@@ -275,7 +300,7 @@ THREADS_INLINE void gather_gradient(const struct chunk *chunk, double patch[][PA
 
 /* Adds momentum of the new velocities of the chunk to the straining field. */
 THREADS_INLINE void scatter_new_momentum(const struct chunk *chunk, double *const velocity[3],
-                                                                       const double *mass, double patch[][PATCH_NODES])
+                                                                       const double *mass, double (*patch)[PATCH_NODES])
 {
     const struct workspace *w = chunk->workspace;
     for (struct cell_walk walk = {0}; walk_next(chunk, &walk);) {
@@ -294,7 +319,7 @@ THREADS_INLINE void scatter_new_momentum(const struct chunk *chunk, double *cons
             sum[2][LOWER] += n_lower * pz;
             sum[2][UPPER] += n_upper * pz;
         }
-        add_corners(patch, grid_patch_corner(walk.cell), sum, 3);
+        add_corners(patch, grid_patch_corner(walk.cell, PATCH_EDGE, 0), sum, 3);
     }
 }
 
@@ -308,22 +333,22 @@ THREADS_INLINE void velocity_chunk(struct mpm *mpm, struct chunk *chunk, bool mo
     struct workspace *w = chunk->workspace;
     double *position[3], *velocity[3];
     for (int a = 0; a < 3; a++) {
-        position[a] = chunk_read(chunk, store->real[COLUMN_POSITION][a], w->copy[a]);
+        position[a] = chunk_read(chunk, store->real[mpm->place][a], w->copy[a]);
         velocity[a] = chunk_read(chunk, store->real[COLUMN_VELOCITY][a], w->copy[3 + a]);
     }
     const double *mass = chunk_read(chunk, store->real[COLUMN_MASS][0], w->copy[6]);
     find_local(mpm, chunk, position);
     if (external) {
-        gather_values(chunk, w->patch + PATCH_VELOCITY);
+        gather_values(chunk, values_of(w, PATCH_VELOCITY));
         motion_work(mpm, chunk);
     }
-    gather_values(chunk, w->patch + PATCH_ACCELERATION);
+    gather_values(chunk, values_of(w, PATCH_ACCELERATION));
     motion_accelerate(mpm, chunk, velocity, mass);
     if (remaps)
-        scatter_new_momentum(chunk, velocity, mass, grid_patch(mpm->grid, chunk->block_index));
+        scatter_new_momentum(chunk, velocity, mass, patch_of(mpm, chunk->block_index));
     if (moves) {
-        gather_values(chunk, w->patch + PATCH_VELOCITY);
-        motion_move(mpm, chunk, position);
+        gather_values(chunk, values_of(w, PATCH_VELOCITY));
+        motion_move(mpm, chunk);
     }
 }
 
@@ -334,7 +359,7 @@ THREADS_INLINE void velocity_block(struct mpm *mpm, int32_t b, bool moves, bool 
     struct chunk chunk = {.block = &mpm->cells->blocks[b], .block_index = b, .workspace = w};
     grid_read_patch(mpm->grid, b, NODE_MOMENTUM, 6, w->patch);
     if (remaps)
-        memset(grid_patch(mpm->grid, b), 0, 3 * sizeof w->patch[0]);
+        memset(patch_of(mpm, b), 0, 3 * PATCH_NODES * sizeof(double));
     while (chunk_next(mpm, &chunk))
         velocity_chunk(mpm, &chunk, moves, remaps, external);
 }
@@ -381,19 +406,19 @@ THREADS_INLINE void strain_block(struct mpm *mpm, int32_t b, bool moves)
 {
     struct workspace *w = &mpm->workspaces[threads_self()];
     struct chunk chunk = {.block = &mpm->cells->blocks[b], .block_index = b, .workspace = w};
-    grid_read_patch(mpm->grid, b, mpm->straining_field, 3, w->patch + PATCH_STRAINING);
+    grid_read_patch(mpm->grid, b, mpm->straining_field, 3, values_of(w, PATCH_STRAINING)[0]);
     if (moves)
-        grid_read_patch(mpm->grid, b, NODE_MOMENTUM, 3, w->patch + PATCH_VELOCITY);
+        grid_read_patch(mpm->grid, b, NODE_MOMENTUM, 3, values_of(w, PATCH_VELOCITY)[0]);
     while (chunk_next(mpm, &chunk)) {
         double *position[3];
         for (int a = 0; a < 3; a++)
-            position[a] = chunk_read(&chunk, mpm->store->real[COLUMN_POSITION][a], w->copy[a]);
+            position[a] = chunk_read(&chunk, mpm->store->real[mpm->place][a], w->copy[a]);
         find_local(mpm, &chunk, position);
-        gather_gradient(&chunk, w->patch + PATCH_STRAINING, mpm->time_step / mpm->cells->frame.size);
+        gather_gradient(&chunk, values_of(w, PATCH_STRAINING), mpm->time_step / mpm->cells->frame.size);
         stress_update(mpm, &chunk);
         if (moves) {
-            gather_values(&chunk, w->patch + PATCH_VELOCITY);
-            motion_move(mpm, &chunk, position);
+            gather_values(&chunk, values_of(w, PATCH_VELOCITY));
+            motion_move(mpm, &chunk);
         }
     }
 }
@@ -418,4 +443,5 @@ static void gather_strain(struct mpm *mpm, int32_t b)
         strain_and_move(mpm, b);
 }
 
-const struct shape shape_linear = {"linear", 0, scatter, gather_velocity, gather_strain};
+const struct shape shape_linear = {
+    .name = "linear", .scatter = scatter, .gather_velocity = gather_velocity, .gather_strain = gather_strain};

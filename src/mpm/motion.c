@@ -94,16 +94,20 @@ THREADS_INLINE void find_cells(const struct mpm *mpm, const struct chunk *chunk,
 }
 
 THREADS_VECTORISED
-void motion_move(struct mpm *mpm, const struct chunk *chunk, double *const position[3])
+void motion_move(struct mpm *mpm, const struct chunk *chunk)
 {
     const double step = mpm->time_step;
+    double *position[3];
     for (int a = 0; a < 3; a++) {
-        double *restrict x = position[a];
+        double *restrict x = position[a] =
+            chunk_read(chunk, mpm->store->real[COLUMN_POSITION][a], chunk->workspace->copy[a]);
         const double *restrict velocity = chunk->workspace->gathered[a];
         for (int32_t j = 0; j < chunk->count; j++)
             x[j] += velocity[j] * step;
         chunk_write(chunk, mpm->store->real[COLUMN_POSITION][a], x);
     }
+    if (mpm->is_total)
+        return;
     find_cells(mpm, chunk, position);
     uint8_t *cell = mpm->cells->cell;
     int changed = 0;

@@ -11,6 +11,7 @@
 struct diagnostics;
 struct workspace;
 struct face_load;
+struct contact;
 
 /* Sums over particles, per block and in all. */
 struct sums {
@@ -26,6 +27,7 @@ struct sums {
 struct body_data {
     const struct material *material;
     double gravity[3];
+    double half_width; /* of a particle, in cells: for gimp cp */
 };
 
 /* A shape function: its passes over the particles of one block. One const row each. */
@@ -33,27 +35,39 @@ struct mpm;
 struct shape {
     const char *name;
     int reach; /* cells beyond its own that a particle's support spans on the low side */
+    /* With contact, force comes with the normals behind it. */
     void (*scatter)(struct mpm *mpm, int32_t block, bool momentum, bool force);
     void (*gather_velocity)(struct mpm *mpm, int32_t block);
     void (*gather_strain)(struct mpm *mpm, int32_t block);
+    /* Only with auxiliary points between particles and nodes, else NULL: makes them, and what is
+     * done on them and the nodes in place of the grid's own passes. */
+    struct grid *(*open_centres)(const struct mpm *mpm);
+    void (*strain_first)(struct mpm *mpm);
+    void (*integrate)(struct mpm *mpm, bool with_momentum);
+    void (*strain_last)(struct mpm *mpm);
 };
 
-extern const struct shape shape_linear;
+extern const struct shape shape_linear, shape_gimp, shape_gimp_own, shape_bimp, shape_staggered;
 
 struct mpm {
     const struct scene *scene;
     struct store *store;
     struct cell_list *cells;
     struct grid *grid;
+    struct grid *centres; /* auxiliary points of the staggered grid, or NULL */
     const struct shape *shape;
     struct body_data *bodies;
     int32_t *component_of_body;
     const struct material **material_of_body;
     int *material_number_of_body;
     void (*rotate)(const struct law_batch *batch); /* NULL: no rotation */
+    enum column place;       /* positions that tell cells and weights: present, or initial ones (TLmp) */
+    bool is_total;           /* total Lagrangian: cells stay, forces from the first Piola-Kirchhoff stress */
     int straining_field;     /* node field of the velocities that strain particles: of the scheme */
     bool has_external_force; /* loads, gravity or damping */
     bool has_one_law;        /* all bodies share one material */
+    struct contact *contact; /* NULL: all components share one velocity field */
+    double contact_force[3]; /* sum over nodes in the last step */
     struct face_load *faces;
     size_t n_faces;
     struct workspace *workspaces; /* one a thread */
@@ -67,6 +81,7 @@ struct mpm {
     double time_step;       /* of the step under way, or of the next one */
     double first_time_step;
     double momentum_factor; /* 1/2 in the first step */
+    double load_factor;     /* 1, or less while QuLo's loads grow */
     struct sums sums;       /* after the last step */
     double start_energy;
     double external_work;   /* of all forces since the start */
@@ -115,9 +130,31 @@ THREADS_INLINE void mpm_external_force(const struct mpm *mpm, size_t p, double f
     const double *gravity = mpm->bodies[store->integer[COLUMN_BODY][p]].gravity;
     double mass = store->real[COLUMN_MASS][0][p];
     for (int a = 0; a < 3; a++) {
-        double load = store->real[COLUMN_LOAD][0] ? store->real[COLUMN_LOAD][a][p] : 0;
+        double load = store->real[COLUMN_LOAD][0] ? mpm->load_factor * store->real[COLUMN_LOAD][a][p] : 0;
         force[a] = load + mass * (gravity[a] - mpm->scene->damping * store->real[COLUMN_VELOCITY][a][p]);
     }
+}
+
+/* Volume times stress over cell size of a particle, negative: what its gradients are multiplied with
+ * in the forces (spec 6 C, 9.2). */
+THREADS_INLINE void mpm_force_stress(const struct mpm *mpm, size_t p, double t[3][3])
+{
+    const struct store *store = mpm->store;
+    const double size = mpm->cells->frame.size;
+    if (mpm->is_total) {
+        double scale = -store->real[COLUMN_MASS][0][p]
+                     / (mpm->material_of_body[store->integer[COLUMN_BODY][p]]->density * size);
+        for (int a = 0; a < 9; a++)
+            t[a / 3][a % 3] = scale * store->real[COLUMN_FIRST_STRESS][a][p];
+        return;
+    }
+    double scale = -store->real[COLUMN_VOLUME][0][p] / size, viscous = store->real[COLUMN_VISCOUS_PRESSURE][0][p];
+    t[0][0] = scale * (store->real[COLUMN_STRESS][0][p] - viscous);
+    t[1][1] = scale * (store->real[COLUMN_STRESS][1][p] - viscous);
+    t[2][2] = scale * (store->real[COLUMN_STRESS][2][p] - viscous);
+    t[1][2] = t[2][1] = scale * store->real[COLUMN_STRESS][3][p];
+    t[0][2] = t[2][0] = scale * store->real[COLUMN_STRESS][4][p];
+    t[0][1] = t[1][0] = scale * store->real[COLUMN_STRESS][5][p];
 }
 
 /* Face tractions (load face). */
@@ -125,6 +162,11 @@ void faces_open(struct mpm *mpm);
 void faces_close(struct mpm *mpm);
 void faces_scatter(struct mpm *mpm, int force_field); /* adds to field force_field + 0, 1, 2 of the patches */
 double faces_work(const struct mpm *mpm); /* after the grid is integrated */
+
+/* Contact between components: after the momentum equation, before velocities are taken. */
+void contact_open(struct mpm *mpm);
+void contact_close(struct mpm *mpm);
+void contact_resolve(struct mpm *mpm);
 
 /* What all shape functions do with a portion of particles once the grid's values are in the
  * thread's workspace. */
@@ -140,6 +182,6 @@ void motion_work(struct mpm *mpm, const struct chunk *chunk);
 void motion_accelerate(struct mpm *mpm, const struct chunk *chunk, double *const velocity[3], const double *mass);
 
 /* New positions and cells from the gathered velocities. */
-void motion_move(struct mpm *mpm, const struct chunk *chunk, double *const position[3]);
+void motion_move(struct mpm *mpm, const struct chunk *chunk);
 
 #endif

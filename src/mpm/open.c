@@ -30,16 +30,36 @@ static uint64_t wanted_columns(const struct scene *scene)
     for (size_t i = 0; i < scene->n_loads; i++)
         if (scene->loads[i].kind != LOAD_GRAVITY && scene->loads[i].kind != LOAD_FACE)
             wanted |= column_bit(COLUMN_LOAD);
+    if (scene->tracks_deformation || scene->is_total)
+        wanted |= column_bit(COLUMN_DEFORMATION);
+    if (scene->is_total)
+        wanted |= column_bit(COLUMN_FIRST_STRESS) | column_bit(COLUMN_INITIAL_POSITION);
     return wanted;
 }
 
 /* Where a generator's points go. */
 struct filling {
+    const struct scene *scene;
     struct store *store;
     size_t next;
     int32_t body;
     const struct material *material;
 };
+
+/* Programmed burn: distance to the nearest detonation point over the detonation speed; it takes no
+ * notice of obstacles (spec 9.7). */
+static double lighting_time(const struct filling *filling, const double position[3])
+{
+    const struct scene *scene = filling->scene;
+    double earliest = column_row(COLUMN_LIGHTING_TIME)->initial;
+    for (size_t i = 0; i < scene->n_detonations && filling->material->detonation_speed > 0; i++) {
+        double square = 0;
+        for (int a = 0; a < 3; a++)
+            square += pow(position[a] - scene->detonations[i].position[a], 2);
+        earliest = fmin(earliest, sqrt(square) / filling->material->detonation_speed);
+    }
+    return earliest;
+}
 
 static void fill_particle(void *context, const double position[3], double mass)
 {
@@ -55,6 +75,9 @@ static void fill_particle(void *context, const double position[3], double mass)
     store->real[COLUMN_VOLUME][0][p] = mass / filling->material->density;
     if (store_has(store, COLUMN_YIELD_STRESS))
         store->real[COLUMN_YIELD_STRESS][0][p] = filling->material->yield_stress;
+    store->real[COLUMN_ENERGY][0][p] = filling->material->initial_energy * store->real[COLUMN_VOLUME][0][p];
+    if (store_has(store, COLUMN_LIGHTING_TIME))
+        store->real[COLUMN_LIGHTING_TIME][0][p] = lighting_time(filling, position);
     store->integer[COLUMN_ID][p] = store->index_of_id[p] = (int32_t)p;
     store->integer[COLUMN_BODY][p] = filling->body;
 }
@@ -63,7 +86,7 @@ static void create_particles(struct mpm *mpm)
 {
     const struct scene *scene = mpm->scene;
     mpm->store = store_open((size_t)scene->n_particles, wanted_columns(scene));
-    struct filling filling = {.store = mpm->store};
+    struct filling filling = {.scene = scene, .store = mpm->store};
     for (size_t b = 0; b < scene->n_bodies; b++) {
         filling.body = (int32_t)b;
         filling.material = mpm->material_of_body[b];
@@ -77,11 +100,52 @@ static void set_velocity(struct store *store, long id, const double velocity[3])
         store->real[COLUMN_VELOCITY][a][id] = velocity[a];
 }
 
+/* pi as the reference has it in its built-in fields: in single precision (spec 3.5). */
+static const double PI_SINGLE = (double)3.1415926535f;
+
+/* v0 sin(pi y / 6) along x for all particles. */
+static void set_sine(struct mpm *mpm, double v0)
+{
+    for (size_t id = 0; id < mpm->store->count; id++) {
+        double velocity[3] = {v0 * sin(PI_SINGLE * mpm->store->real[COLUMN_POSITION][1][id] / 6), 0, 0};
+        set_velocity(mpm->store, (long)id, velocity);
+    }
+}
+
+/* Half a sine wave along 4 rows of 320 particles. */
+static void set_rows(struct mpm *mpm, double v0)
+{
+    for (long id = 0; id < 4 * 320; id++) {
+        double velocity[3] = {v0 * sin(PI_SINGLE * ((double)(id % 320) * 0.003125 + 0.0015625)), 0, 0};
+        set_velocity(mpm->store, id, velocity);
+    }
+}
+
+/* First bending mode of a certain cantilever plate, 128 rows of 384 particles (spec 3.5). */
+static void set_bending(struct mpm *mpm, double y)
+{
+    const double q = 78.83, c1 = cosh(0.06 * q) - cos(0.06 * q), c2 = sinh(0.06 * q) - sin(0.06 * q), a = y / (2 * c2);
+    const double w = q * q * sqrt(318e9 * 0.01 * 0.01 / (12 * 1845 * (1 - 0.054 * 0.054)));
+    for (long id = 0; id < 128 * 384; id++) {
+        double x = (double)(id % 384) * 0.00015625 + 0.000078125;
+        double mode = c1 * (sinh(q * x) + sin(q * x)) - c2 * (cosh(q * x) + cos(q * x));
+        set_velocity(mpm->store, id, (double[]){0, a * w * mode, 0});
+    }
+}
+
 static void apply_velocities(struct mpm *mpm)
 {
     const struct scene *scene = mpm->scene;
     for (size_t i = 0; i < scene->n_velocities; i++) {
         const struct scene_velocity *velocity = &scene->velocities[i];
+        if (velocity->kind == VELOCITY_SINE)
+            set_sine(mpm, velocity->value[0]);
+        if (velocity->kind == VELOCITY_ROWS)
+            set_rows(mpm, velocity->value[0]);
+        if (velocity->kind == VELOCITY_BENDING)
+            set_bending(mpm, velocity->value[0]);
+        if (velocity->kind != VELOCITY_PARTICLE && velocity->kind != VELOCITY_BODY)
+            continue;
         const struct scene_body *body = velocity->kind == VELOCITY_BODY ? &scene->bodies[velocity->target] : NULL;
         long first = body ? body->first : velocity->target, count = body ? body->count : 1;
         for (long id = first; id < first + count; id++)
@@ -126,6 +190,9 @@ static void create_bodies(struct mpm *mpm)
         int material = scene->bodies[b].generator.material;
         mpm->material_of_body[b] = mpm->bodies[b].material = &scene->materials[material].material;
         mpm->material_number_of_body[b] = material + 1;
+        mpm->component_of_body[b] = scene->contact == CONTACT_NONE ? 0 : scene->bodies[b].component;
+        double spacing = scene->bodies[b].generator.spacing;
+        mpm->bodies[b].half_width = spacing > 0 ? fmin(0.5, 0.5 * spacing / scene->cell_size) : 0.25;
         mpm->has_one_law = mpm->has_one_law && mpm->material_of_body[b] == mpm->material_of_body[0];
     }
 }
@@ -149,8 +216,19 @@ static void create_cells(struct mpm *mpm)
     cell_list_build(mpm->cells, mpm->store);
     if (scene->sorts)
         cell_list_sort(mpm->cells, mpm->store);
-    mpm->grid = grid_open(mpm->cells, scene->boundary, 1, scene->mass_cutoff);
+    const struct grid_form form = {
+        .low = mpm->shape->reach,
+        .high = 1 + mpm->shape->reach,
+        .fields = mpm->contact ? NODE_FIELDS_CONTACT : NODE_FIELDS,
+        .patch_fields = mpm->contact ? PATCH_FIELDS_CONTACT : PATCH_FIELDS,
+        .boundary_layers = mpm->shape->reach > 0 ? 2 : 1,
+    };
+    mpm->grid = grid_open(mpm->cells, form, scene->boundary, scene->mass_cutoff);
     grid_follow(mpm->grid);
+    if (mpm->shape->open_centres) {
+        mpm->centres = mpm->shape->open_centres(mpm);
+        grid_follow(mpm->centres);
+    }
 }
 
 /* The particles of the curx curves: for each body the first one within a quarter cell, later
@@ -199,9 +277,15 @@ struct mpm *mpm_open(struct scene *scene, struct timers *timers, struct diagnost
     struct mpm *mpm = memory_array(1, sizeof *mpm, "the run");
     mpm->scene = scene;
     mpm->timers = timers;
-    mpm->shape = &shape_linear;
+    static const struct shape *const shapes[] = {[INTERPOLATION_LINEAR] = &shape_linear, [INTERPOLATION_GIMP] = &shape_gimp,
+                                                 [INTERPOLATION_GIMP_OWN] = &shape_gimp_own, [INTERPOLATION_BIMP] = &shape_bimp,
+                                                 [INTERPOLATION_STAGGERED] = &shape_staggered};
+    mpm->shape = shapes[scene->interpolation];
+    mpm->is_total = scene->is_total;
+    mpm->place = scene->is_total ? COLUMN_INITIAL_POSITION : COLUMN_POSITION;
     mpm->straining_field = scene->scheme == SCHEME_USL ? NODE_MOMENTUM : NODE_STRAINING;
     mpm->rotate = rotations[scene->rotation];
+    contact_open(mpm);
     create_bodies(mpm);
     create_particles(mpm);
     apply_velocities(mpm);
@@ -220,7 +304,9 @@ void mpm_close(struct mpm *mpm)
     if (!mpm)
         return;
     faces_close(mpm);
+    contact_close(mpm);
     grid_close(mpm->grid);
+    grid_close(mpm->centres);
     cell_list_close(mpm->cells);
     store_close(mpm->store);
     memory_free(mpm->bodies);

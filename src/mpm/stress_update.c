@@ -1,72 +1,74 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Stress update of a portion of particles: volume, rotation, law, energy (spec 6.2 to 6.6). */
+/* Stress update of a portion of particles: volume, rotation, law, energy (spec 6.2 to 6.7). */
+#include "base/tensor.h"
 #include "base/threads.h"
 #include "mpm/chunk.h"
 
-/* Columns that the update reads and writes back, and where their copies go in the workspace. */
-enum { COPY_STRESS = 3, COPY_VOLUME = 9, COPY_ENERGY, COPY_VISCOUS, COPY_PLASTIC, COPY_YIELD, COPY_MASS };
+#include <math.h>
+
+/* The columns that an update may change, each with its pointers in the batch. A scene has those of
+ * its laws; the workspace keeps copies in this order, behind the positions. */
+static const struct {
+    enum column column;
+    size_t pointer;
+} changed[] = {
+    {COLUMN_STRESS, offsetof(struct law_batch, stress)},
+    {COLUMN_VOLUME, offsetof(struct law_batch, volume)},
+    {COLUMN_ENERGY, offsetof(struct law_batch, energy)},
+    {COLUMN_VISCOUS_PRESSURE, offsetof(struct law_batch, viscous_pressure)},
+    {COLUMN_PLASTIC_STRAIN, offsetof(struct law_batch, plastic_strain)},
+    {COLUMN_YIELD_STRESS, offsetof(struct law_batch, yield_stress)},
+    {COLUMN_MEAN_STRESS, offsetof(struct law_batch, mean_stress)},
+    {COLUMN_EQUIVALENT_STRESS, offsetof(struct law_batch, equivalent_stress)},
+    {COLUMN_TEMPERATURE, offsetof(struct law_batch, temperature)},
+    {COLUMN_DAMAGE, offsetof(struct law_batch, damage)},
+    {COLUMN_FAILED, offsetof(struct law_batch, failed)},
+    {COLUMN_LIGHTING_TIME, offsetof(struct law_batch, lighting_time)},
+    {COLUMN_DEFORMATION, offsetof(struct law_batch, deformation)},
+    {COLUMN_FIRST_STRESS, offsetof(struct law_batch, first_stress)},
+};
+
+enum { CHANGED = sizeof changed / sizeof changed[0], COPY_MASS = 3, COPY_CHANGED };
+
+/* The pointers of entry i in a batch. */
+static inline double **pointers_of(struct law_batch *batch, int i)
+{
+    return (double **)(void *)((char *)batch + changed[i].pointer);
+}
 
 /* The batch of the whole portion. */
-static struct law_batch open_batch(const struct mpm *mpm, const struct chunk *chunk, double *volume)
+static struct law_batch open_batch(const struct mpm *mpm, const struct chunk *chunk)
 {
     struct store *store = mpm->store;
     struct workspace *w = chunk->workspace;
     struct law_batch batch = {
         .count = chunk->count,
         .time_step = mpm->time_step,
+        .time = mpm->time,
         .cell_size = mpm->cells->frame.size,
         .bulk_quadratic = mpm->scene->bulk[0],
         .bulk_linear = mpm->scene->bulk[1],
         .trace = w->trace,
         .volume_before = w->volume_before,
-        .volume = volume,
         .mass = chunk_read(chunk, store->real[COLUMN_MASS][0], w->copy[COPY_MASS]),
         .work = w->work,
-        .energy = chunk_read(chunk, store->real[COLUMN_ENERGY][0], w->copy[COPY_ENERGY]),
-        .viscous_pressure = chunk_read(chunk, store->real[COLUMN_VISCOUS_PRESSURE][0], w->copy[COPY_VISCOUS]),
     };
-    for (int a = 0; a < 6; a++) {
+    for (int a = 0; a < 6; a++)
         batch.strain[a] = w->strain[a];
-        batch.stress[a] = chunk_read(chunk, store->real[COLUMN_STRESS][a], w->copy[COPY_STRESS + a]);
-    }
     for (int a = 0; a < 3; a++)
         batch.spin[a] = w->spin[a];
-    if (store_has(store, COLUMN_PLASTIC_STRAIN))
-        batch.plastic_strain = chunk_read(chunk, store->real[COLUMN_PLASTIC_STRAIN][0], w->copy[COPY_PLASTIC]);
-    if (store_has(store, COLUMN_YIELD_STRESS))
-        batch.yield_stress = chunk_read(chunk, store->real[COLUMN_YIELD_STRESS][0], w->copy[COPY_YIELD]);
+    for (int i = 0, copy = COPY_CHANGED; i < CHANGED; i++)
+        for (int a = 0; a < column_row(changed[i].column)->components && store->real[changed[i].column][a]; a++)
+            pointers_of(&batch, i)[a] = chunk_read(chunk, store->real[changed[i].column][a], w->copy[copy++]);
     return batch;
 }
 
-static void close_batch(const struct mpm *mpm, const struct chunk *chunk, const struct law_batch *batch)
+static void close_batch(const struct mpm *mpm, const struct chunk *chunk, struct law_batch *batch)
 {
     struct store *store = mpm->store;
-    if (chunk->is_one_piece)
-        return;
-    for (int a = 0; a < 6; a++)
-        chunk_write(chunk, store->real[COLUMN_STRESS][a], batch->stress[a]);
-    chunk_write(chunk, store->real[COLUMN_VOLUME][0], batch->volume);
-    chunk_write(chunk, store->real[COLUMN_ENERGY][0], batch->energy);
-    chunk_write(chunk, store->real[COLUMN_VISCOUS_PRESSURE][0], batch->viscous_pressure);
-    if (batch->plastic_strain)
-        chunk_write(chunk, store->real[COLUMN_PLASTIC_STRAIN][0], batch->plastic_strain);
-    if (batch->yield_stress)
-        chunk_write(chunk, store->real[COLUMN_YIELD_STRESS][0], batch->yield_stress);
-}
-
-static void advance(const struct mpm *mpm, const struct law_batch *batch)
-{
-    const struct law *law = batch->material->law;
-    if (mpm->rotate && law->rotates)
-        mpm->rotate(batch);
-    law_energy_before(batch);
-    law->update(batch);
-    law_energy_after(batch);
-}
-
-static inline double *offset(double *array, int32_t from)
-{
-    return array ? array + from : NULL;
+    for (int i = 0; i < CHANGED && !chunk->is_one_piece; i++)
+        for (int a = 0; a < column_row(changed[i].column)->components && store->real[changed[i].column][a]; a++)
+            chunk_write(chunk, store->real[changed[i].column][a], pointers_of(batch, i)[a]);
 }
 
 /* The points from ... to - 1 of a batch, of one material. */
@@ -75,22 +77,49 @@ static struct law_batch part_of(const struct law_batch *whole, int32_t from, int
     struct law_batch part = *whole;
     part.count = to - from;
     part.material = material;
-    for (int a = 0; a < 6; a++) {
+    for (int a = 0; a < 6; a++)
         part.strain[a] += from;
-        part.stress[a] += from;
-    }
     for (int a = 0; a < 3; a++)
         part.spin[a] += from;
     part.trace += from;
     part.volume_before += from;
-    part.volume += from;
     part.mass += from;
     part.work += from;
-    part.energy += from;
-    part.viscous_pressure += from;
-    part.plastic_strain = offset(whole->plastic_strain, from);
-    part.yield_stress = offset(whole->yield_stress, from);
+    for (int i = 0; i < CHANGED; i++)
+        for (int a = 0; a < column_row(changed[i].column)->components && pointers_of(&part, i)[a]; a++)
+            pointers_of(&part, i)[a] += from;
     return part;
+}
+
+/* The law leaves stress only: the columns of pressure and von Mises stress that other laws of the
+ * scene brought along follow it. */
+static void follow_stress(const struct law_batch *batch)
+{
+    for (int j = 0; j < batch->count; j++) {
+        double s[6];
+        for (int a = 0; a < 6; a++)
+            s[a] = batch->stress[a][j];
+        if (batch->mean_stress && !batch->material->law->needs_eos)
+            batch->mean_stress[j] = tensor_mean(s);
+        if (batch->equivalent_stress && !batch->material->law->keeps_equivalent)
+            batch->equivalent_stress[j] = tensor_von_mises(s[0], s[1], s[2], s[3], s[4], s[5]);
+    }
+}
+
+static void advance(const struct mpm *mpm, const struct law_batch *batch)
+{
+    const struct law *law = batch->material->law;
+    if (law->needs_eos)
+        law_eos_work_before(batch);
+    if (mpm->rotate && law->rotates)
+        mpm->rotate(batch);
+    if (!law->needs_eos)
+        law_energy_before(batch);
+    law->update(batch);
+    if (!law->needs_eos)
+        law_energy_after(batch);
+    if (batch->mean_stress || batch->equivalent_stress)
+        follow_stress(batch);
 }
 
 /* Advances runs of particles of one material. */
@@ -118,18 +147,83 @@ static void change_volume(struct workspace *w, double *restrict volume, int32_t 
     }
 }
 
+/* The velocity gradient times the step of point j. */
+static void gradient_of(const struct workspace *w, int32_t j, double g[3][3])
+{
+    for (int a = 0; a < 3; a++)
+        g[a][a] = w->strain[a][j];
+    g[2][1] = 0.5 * w->strain[3][j] + w->spin[0][j], g[1][2] = 0.5 * w->strain[3][j] - w->spin[0][j];
+    g[0][2] = 0.5 * w->strain[4][j] + w->spin[1][j], g[2][0] = 0.5 * w->strain[4][j] - w->spin[1][j];
+    g[1][0] = 0.5 * w->strain[5][j] + w->spin[2][j], g[0][1] = 0.5 * w->strain[5][j] - w->spin[2][j];
+}
+
+/* Volume and deformation gradient by the velocity gradient times the step, G: F := (1 + G) F,
+ * V := V det(1 + G) (spec 6.4). */
+static void change_deformation(struct workspace *w, const struct law_batch *batch)
+{
+    for (int32_t j = 0; j < batch->count; j++) {
+        double g[3][3], h[3][3];
+        gradient_of(w, j, g);
+        for (int a = 0; a < 9; a++)
+            h[a / 3][a % 3] = batch->deformation[a][j];
+        for (int a = 0; a < 9; a++) {
+            int r = a / 3, c = a % 3;
+            batch->deformation[a][j] = h[r][c] + g[r][c] + g[r][0] * h[0][c] + g[r][1] * h[1][c] + g[r][2] * h[2][c];
+        }
+        for (int a = 0; a < 3; a++)
+            g[a][a] += 1;
+        w->volume_before[j] = batch->volume[j];
+        batch->volume[j] *= tensor_determinant(g);
+    }
+}
+
+/* Total Lagrangian neo-Hookean update (spec 9.2): the gradient is that of the initial shape, so
+ * F := F + G; first Piola-Kirchhoff stress, and from it Cauchy stress, volume and energy. */
+static void update_total(const struct mpm *mpm, const struct chunk *chunk, const struct law_batch *batch)
+{
+    static const int row[6] = {0, 1, 2, 1, 0, 0}, column[6] = {0, 1, 2, 2, 2, 1};
+    for (int32_t j = 0; j < chunk->count; j++) {
+        const struct material *material = mpm->material_of_body[mpm->store->integer[COLUMN_BODY][chunk->order[j]]];
+        const double shear = material->shear_modulus, lame = material->bulk_modulus - 2 * shear / 3;
+        double g[3][3], f[3][3], inverse[3][3], work = 0, before = batch->volume[j];
+        gradient_of(chunk->workspace, j, g);
+        for (int a = 0; a < 9; a++)
+            f[a / 3][a % 3] = (batch->deformation[a][j] += g[a / 3][a % 3]) + (a % 4 == 0);
+        double ratio = tensor_determinant(f), pressure = lame * log(ratio) - shear;
+        tensor_inverse(f, ratio, inverse);
+        batch->volume[j] = ratio * batch->mass[j] / material->density;
+        for (int a = 0; a < 9; a++) {
+            double stress = shear * f[a / 3][a % 3] + pressure * inverse[a % 3][a / 3];
+            work += 0.5 * (batch->first_stress[a][j] + stress) * g[a / 3][a % 3];
+            batch->first_stress[a][j] = stress;
+        }
+        for (int a = 0; a < 6; a++) {
+            double sum = 0;
+            for (int k = 0; k < 3; k++)
+                sum += batch->first_stress[3 * row[a] + k][j] * f[column[a]][k];
+            batch->stress[a][j] = sum / ratio;
+        }
+        batch->energy[j] += work * 0.5 * (before + batch->volume[j]); /* present volumes, as the reference (Q) */
+    }
+}
+
 void stress_update(struct mpm *mpm, const struct chunk *chunk)
 {
-    struct workspace *w = chunk->workspace;
     struct sums *sums = &mpm->block_sums[chunk->block_index];
-    double *volume = chunk_read(chunk, mpm->store->real[COLUMN_VOLUME][0], w->copy[COPY_VOLUME]);
-    change_volume(w, volume, chunk->count);
-    struct law_batch batch = open_batch(mpm, chunk, volume);
-    advance_runs(mpm, chunk, &batch);
+    struct law_batch batch = open_batch(mpm, chunk);
+    if (mpm->is_total) {
+        update_total(mpm, chunk, &batch);
+    } else {
+        if (batch.deformation[0])
+            change_deformation(chunk->workspace, &batch);
+        else
+            change_volume(chunk->workspace, batch.volume, chunk->count);
+        advance_runs(mpm, chunk, &batch);
+    }
     double energy = 0, least = sums->least_volume;
     for (int32_t j = 0; j < chunk->count; j++) {
         energy += batch.energy[j];
-        least = volume[j] < least ? volume[j] : least;
+        least = batch.volume[j] < least ? batch.volume[j] : least;
     }
     sums->internal += energy;
     sums->least_volume = least;

@@ -43,7 +43,10 @@ static void solve_on_grid(struct mpm *mpm)
         timers_enter(mpm->timers, PHASE_SCATTER);
         mpm_each_block(mpm, scatter_momentum);
         timers_enter(mpm->timers, PHASE_GRID);
-        grid_straining_velocity(mpm->grid, NODE_MASS, 4);
+        if (mpm->shape->strain_first)
+            mpm->shape->strain_first(mpm);
+        else
+            grid_straining_velocity(mpm->grid, NODE_MASS, 4);
         timers_enter(mpm->timers, PHASE_STRESS);
         mpm_each_block(mpm, mpm->shape->gather_strain);
     }
@@ -51,10 +54,16 @@ static void solve_on_grid(struct mpm *mpm)
     mpm_each_block(mpm, stress_first ? scatter_force : scatter_all);
     faces_scatter(mpm, stress_first ? 0 : NODE_FORCE - NODE_MASS);
     timers_enter(mpm->timers, PHASE_GRID);
-    if (stress_first)
-        grid_integrate(mpm->grid, NODE_FORCE, 3, step);
-    else
-        grid_integrate(mpm->grid, NODE_MASS, 7, step);
+    const int first = stress_first ? NODE_FORCE : NODE_MASS, count = stress_first ? 3 : 7;
+    if (mpm->shape->integrate) {
+        mpm->shape->integrate(mpm, !stress_first);
+    } else if (!mpm->contact) {
+        grid_integrate(mpm->grid, first, count, step);
+    } else {
+        grid_integrate_momentum(mpm->grid, first, count + 3, step);
+        contact_resolve(mpm);
+        grid_divide(mpm->grid);
+    }
     mpm->external_work += faces_work(mpm);
 }
 
@@ -72,7 +81,9 @@ static void update_stress_last(struct mpm *mpm)
     if (mpm->scene->scheme == SCHEME_USF)
         return;
     timers_enter(mpm->timers, PHASE_GRID);
-    if (mpm->scene->scheme == SCHEME_MUSL)
+    if (mpm->shape->strain_last)
+        mpm->shape->strain_last(mpm);
+    else if (mpm->scene->scheme == SCHEME_MUSL)
         grid_straining_velocity(mpm->grid, NODE_STRAINING, 3);
     timers_enter(mpm->timers, PHASE_STRESS);
     mpm_each_block(mpm, mpm->shape->gather_strain);
@@ -89,6 +100,8 @@ static void discard_grid(struct mpm *mpm)
         cell_list_sort(cells, mpm->store);
     }
     grid_follow(mpm->grid);
+    if (mpm->centres)
+        grid_follow(mpm->centres);
 }
 
 static void clear_block_sums(struct mpm *mpm)
@@ -189,6 +202,7 @@ void mpm_step(struct mpm *mpm)
     mpm->step++;
     mpm->time += mpm->time_step;
     mpm->momentum_factor = mpm->step == 1 ? 0.5 : 1;
+    mpm->load_factor = mpm->scene->loading_time > 0 ? fmin(1, mpm->time / mpm->scene->loading_time) : 1;
     clear_block_sums(mpm);
     solve_on_grid(mpm);
     update_velocities(mpm);

@@ -40,12 +40,15 @@ bool history_open(struct history *history, const struct scene *scene, const char
         || !open_named(&history->momentum, scene, folder, "_momentum.dat", "MomentumPlot.dat"))
         return false;
     /* the reference leaves an empty table where there is no contact */
-    if (scene->bare_names && !open_named(&history->contact, scene, folder, "_contact.dat", "ContforcPlot.dat"))
+    bool has_contact = scene->contact != CONTACT_NONE;
+    if ((scene->bare_names || has_contact) && !open_named(&history->contact, scene, folder, "_contact.dat", "ContforcPlot.dat"))
         return false;
     write_curve_header(history, scene);
     if (!scene->bare_headers) {
         fprintf(history->energy.stream, "VARIABLES = \"Time\" \"total\" \"kinetic\" \"internal\"\n");
         fprintf(history->momentum.stream, "VARIABLES = \"Time\" \"px\" \"py\" \"pz\"\n");
+        if (has_contact)
+            fprintf(history->contact.stream, "VARIABLES = \"Time\" \"fx\" \"fy\" \"fz\"\n");
     }
     return true;
 }
@@ -78,11 +81,15 @@ void history_step(struct history *history, const struct scene *scene, const stru
                (double[]){totals->time, totals->kinetic + totals->internal, totals->kinetic, totals->internal}, 4);
     write_line(&history->momentum,
                (double[]){totals->time, totals->momentum[0], totals->momentum[1], totals->momentum[2]}, 4);
+    if (scene->contact != CONTACT_NONE)
+        write_line(&history->contact,
+                   (double[]){totals->time, totals->contact[0], totals->contact[1], totals->contact[2]}, 4);
 }
 
 bool history_flush(struct history *history)
 {
-    return table_flush(&history->curves) && table_flush(&history->energy) && table_flush(&history->momentum);
+    return table_flush(&history->curves) && table_flush(&history->energy) && table_flush(&history->momentum)
+        && (!history->contact.stream || table_flush(&history->contact));
 }
 
 bool history_close(struct history *history)

@@ -8,7 +8,7 @@
 
 /* Totals that a step's lines need. */
 struct history_totals {
-    double time, kinetic, internal, momentum[3];
+    double time, kinetic, internal, momentum[3], contact[3];
 };
 
 struct history {

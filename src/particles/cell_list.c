@@ -451,6 +451,11 @@ void cell_list_sort(struct cell_list *list, struct store *store)
     list->moved = 0;
 }
 
+int32_t cell_list_find_block(const struct cell_list *list, const int32_t at[3], int32_t component)
+{
+    return find_block(list, at, component);
+}
+
 int32_t cell_list_block_of(const struct cell_list *list, int32_t p, const struct store *store, int32_t component)
 {
     double position[3];

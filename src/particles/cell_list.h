@@ -62,6 +62,9 @@ void cell_list_sort(struct cell_list *list, struct store *store);
 /* Block of the particle at place p in memory; -1 when it has no cell. */
 int32_t cell_list_block_of(const struct cell_list *list, int32_t p, const struct store *store, int32_t component);
 
+/* Block at a place, or -1. */
+int32_t cell_list_find_block(const struct cell_list *list, const int32_t at[3], int32_t component);
+
 /* Bytes of the list per particle at present. */
 double cell_list_bytes_per_particle(const struct cell_list *list);
 

@@ -8,20 +8,29 @@
 enum { SHARED_PARTICLES = 50000 };
 
 static const struct column_row rows[COLUMN_COUNT] = {
-    [COLUMN_NONE] = {"none", 0, false, NULL, ""},
-    [COLUMN_POSITION] = {"position", 3, false, "length", "present position"},
-    [COLUMN_VELOCITY] = {"velocity", 3, false, "length/time", "velocity"},
-    [COLUMN_STRESS] = {"stress", 6, false, "stress", "Cauchy stress xx yy zz yz xz xy"},
-    [COLUMN_VOLUME] = {"volume", 1, false, "length^3", "present volume"},
-    [COLUMN_MASS] = {"mass", 1, false, "mass", "mass"},
-    [COLUMN_ENERGY] = {"energy", 1, false, "energy", "internal energy"},
-    [COLUMN_VISCOUS_PRESSURE] = {"viscous_pressure", 1, false, "stress", "artificial viscosity pressure"},
-    [COLUMN_PLASTIC_STRAIN] = {"plastic_strain", 1, false, NULL, "effective plastic strain"},
-    [COLUMN_YIELD_STRESS] = {"yield_stress", 1, false, "stress", "present yield stress"},
-    [COLUMN_LOAD] = {"load", 3, false, "force", "force from the load block"},
-    [COLUMN_INITIAL_POSITION] = {"initial_position", 3, false, "length", "position at the start"},
-    [COLUMN_ID] = {"id", 1, true, NULL, "number of the particle"},
-    [COLUMN_BODY] = {"body", 1, true, NULL, "body of the particle"},
+    [COLUMN_NONE] = {"none", 0, false, 0, NULL, ""},
+    [COLUMN_POSITION] = {"position", 3, false, 0, "length", "present position"},
+    [COLUMN_VELOCITY] = {"velocity", 3, false, 0, "length/time", "velocity"},
+    [COLUMN_STRESS] = {"stress", 6, false, 0, "stress", "Cauchy stress xx yy zz yz xz xy"},
+    [COLUMN_VOLUME] = {"volume", 1, false, 0, "length^3", "present volume"},
+    [COLUMN_MASS] = {"mass", 1, false, 0, "mass", "mass"},
+    [COLUMN_ENERGY] = {"energy", 1, false, 0, "energy", "internal energy"},
+    [COLUMN_VISCOUS_PRESSURE] = {"viscous_pressure", 1, false, 0, "stress", "artificial viscosity pressure"},
+    [COLUMN_PLASTIC_STRAIN] = {"plastic_strain", 1, false, 0, NULL, "effective plastic strain"},
+    [COLUMN_YIELD_STRESS] = {"yield_stress", 1, false, 0, "stress", "present yield stress"},
+    [COLUMN_MEAN_STRESS] = {"mean_stress", 1, false, 0, "stress", "minus the pressure of the equation of state"},
+    [COLUMN_EQUIVALENT_STRESS] = {"equivalent_stress", 1, false, 0, "stress", "von Mises stress of the last update"},
+    [COLUMN_TEMPERATURE] = {"temperature", 1, false, 293, "temperature", "temperature"},
+    [COLUMN_DAMAGE] = {"damage", 1, false, 0, NULL, "damage"},
+    [COLUMN_FAILED] = {"failed", 1, false, 0, NULL, "1 where the material failed"},
+    [COLUMN_LIGHTING_TIME] = {"lighting_time", 1, false, 1e7, "time", "when the explosive is lit"},
+    [COLUMN_DEFORMATION] = {"deformation", 9, false, 0, NULL, "deformation gradient less 1, by rows"},
+    [COLUMN_FIRST_STRESS] = {"first_stress", 9, false, 0, "stress", "first Piola-Kirchhoff stress, by rows"},
+    [COLUMN_SMOOTHED_PRESSURE] = {"smoothed_pressure", 1, false, 0, "stress", "pressure averaged over nodes"},
+    [COLUMN_LOAD] = {"load", 3, false, 0, "force", "force from the load block"},
+    [COLUMN_INITIAL_POSITION] = {"initial_position", 3, false, 0, "length", "position at the start"},
+    [COLUMN_ID] = {"id", 1, true, 0, NULL, "number of the particle"},
+    [COLUMN_BODY] = {"body", 1, true, 0, NULL, "body of the particle"},
 };
 
 const struct column_row *column_row(enum column column)
@@ -39,8 +48,11 @@ struct store *store_open(size_t count, uint64_t wanted)
         if (rows[c].is_integer)
             store->integer[c] = memory_array(count, sizeof(int32_t), rows[c].name);
         else
-            for (int a = 0; a < rows[c].components; a++)
+            for (int a = 0; a < rows[c].components; a++) {
                 store->real[c][a] = memory_array(count, sizeof(double), rows[c].name);
+                for (size_t p = 0; p < count && rows[c].initial != 0; p++)
+                    store->real[c][a][p] = rows[c].initial;
+            }
     }
     store->index_of_id = memory_array(count, sizeof(int32_t), "particle index");
     store->scratch = memory_array(count, sizeof(double), "sorting");

@@ -19,6 +19,15 @@ enum column {
     COLUMN_VISCOUS_PRESSURE,
     COLUMN_PLASTIC_STRAIN,
     COLUMN_YIELD_STRESS,
+    COLUMN_MEAN_STRESS,
+    COLUMN_EQUIVALENT_STRESS,
+    COLUMN_TEMPERATURE,
+    COLUMN_DAMAGE,
+    COLUMN_FAILED,
+    COLUMN_LIGHTING_TIME,
+    COLUMN_DEFORMATION,
+    COLUMN_FIRST_STRESS,
+    COLUMN_SMOOTHED_PRESSURE,
     COLUMN_LOAD,
     COLUMN_INITIAL_POSITION,
     COLUMN_ID,
@@ -26,12 +35,13 @@ enum column {
     COLUMN_COUNT
 };
 
-enum { COLUMN_COMPONENTS = 6 };
+enum { COLUMN_COMPONENTS = 9 };
 
 struct column_row {
     const char *name;
     int components;
     bool is_integer; /* int32_t instead of double */
+    double initial;  /* at the start of a run */
     const char *unit;
     const char *doc;
 };

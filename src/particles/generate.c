@@ -111,7 +111,8 @@ static void visit_block(const struct generator *g, bool has_hole, generator_visi
 /* Counts along the longer side, row by row along the shorter one. */
 static long holed_block_count(const struct generator *g)
 {
-    const double *origin = &g->number[BLOCK_ORIGIN], *numbers = &g->number[BLOCK_NUMBERS], *centre = &g->number[HOLE_CENTRE];
+    const double *origin = &g->number[BLOCK_ORIGIN], *numbers = &g->number[BLOCK_NUMBERS];
+    const double *centre = &g->number[HOLE_CENTRE];
     int along = numbers[1] > numbers[0], across = 1 - along;
     struct lattice_row row = {origin[along], g->spacing, 1, (long)numbers[along]};
     struct lattice_row rows = {origin[across], g->spacing, 1, (long)numbers[across]};

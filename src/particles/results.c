@@ -9,6 +9,8 @@
 
 static double von_mises(const struct result_source *s, size_t p)
 {
+    if (store_has(s->store, COLUMN_EQUIVALENT_STRESS))
+        return REAL(s, COLUMN_EQUIVALENT_STRESS, 0);
     return tensor_von_mises(REAL(s, COLUMN_STRESS, 0), REAL(s, COLUMN_STRESS, 1), REAL(s, COLUMN_STRESS, 2),
                             REAL(s, COLUMN_STRESS, 3), REAL(s, COLUMN_STRESS, 4), REAL(s, COLUMN_STRESS, 5));
 }
@@ -25,6 +27,8 @@ static double material(const struct result_source *s, size_t p)
 
 static double pressure(const struct result_source *s, size_t p)
 {
+    if (store_has(s->store, COLUMN_MEAN_STRESS))
+        return -REAL(s, COLUMN_MEAN_STRESS, 0);
     return -(REAL(s, COLUMN_STRESS, 0) + REAL(s, COLUMN_STRESS, 1) + REAL(s, COLUMN_STRESS, 2)) / 3;
 }
 
@@ -57,6 +61,22 @@ static double velocity_y(const struct result_source *s, size_t p)
 static double velocity_z(const struct result_source *s, size_t p)
 {
     return REAL(s, COLUMN_VELOCITY, 2);
+}
+
+static double temperature(const struct result_source *s, size_t p)
+{
+    return store_has(s->store, COLUMN_TEMPERATURE) ? REAL(s, COLUMN_TEMPERATURE, 0)
+                                                   : column_row(COLUMN_TEMPERATURE)->initial;
+}
+
+static double failed(const struct result_source *s, size_t p)
+{
+    return store_has(s->store, COLUMN_FAILED) ? REAL(s, COLUMN_FAILED, 0) : 0;
+}
+
+static double damage(const struct result_source *s, size_t p)
+{
+    return store_has(s->store, COLUMN_DAMAGE) ? REAL(s, COLUMN_DAMAGE, 0) : 0;
 }
 
 static double sound_speed(const struct result_source *s, size_t p)
@@ -122,10 +142,10 @@ static const struct result rows[] = {
     {.name = "velx", .unit = "length/time", .doc = "velocity along x", .value = velocity_x},
     {.name = "vely", .unit = "length/time", .doc = "velocity along y", .value = velocity_y},
     {.name = "velz", .unit = "length/time", .doc = "velocity along z", .value = velocity_z},
-    {.name = "cels", .unit = "temperature", .doc = "temperature", .later = "temperature"},
-    {.name = "fail", .doc = "1 where the material failed", .is_integer = true, .later = "failure"},
+    {.name = "cels", .unit = "temperature", .doc = "temperature", .value = temperature},
+    {.name = "fail", .doc = "1 where the material failed", .is_integer = true, .value = failed},
     {.name = "sspd", .unit = "length/time", .doc = "sound speed of the artificial viscosity", .value = sound_speed},
-    {.name = "damg", .doc = "damage", .later = "damage"},
+    {.name = "damg", .doc = "damage", .value = damage},
     {.name = "stsx", .unit = "stress", .doc = "stress xx", .value = stress_xx},
     {.name = "stsy", .unit = "stress", .doc = "stress yy", .value = stress_yy},
     {.name = "stsz", .unit = "stress", .doc = "stress zz", .value = stress_zz},

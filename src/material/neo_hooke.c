@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* neoh: compressible neo-Hookean hyperelasticity (spec 8.1). */
+#include "base/tensor.h"
+#include "material/law.h"
+
+#include <math.h>
+
+static const char *prepare(struct material *material)
+{
+    law_prepare_elastic(material, true);
+    return NULL;
+}
+
+static void update(const struct law_batch *batch)
+{
+    const double shear = batch->material->shear_modulus;
+    const double lame = batch->material->bulk_modulus - 2 * shear / 3;
+    for (int j = 0; j < batch->count; j++) {
+        double f[3][3];
+        for (int a = 0; a < 9; a++)
+            f[a / 3][a % 3] = batch->deformation[a][j] + (a % 4 == 0);
+        double volume_ratio = tensor_determinant(f);
+        double pressure = lame * log(volume_ratio) - shear;
+        static const int row[6] = {0, 1, 2, 1, 0, 0}, column[6] = {0, 1, 2, 2, 2, 1};
+        for (int a = 0; a < 6; a++) {
+            const double *left = f[row[a]], *right = f[column[a]];
+            double b = left[0] * right[0] + left[1] * right[1] + left[2] * right[2];
+            batch->stress[a][j] = (shear * b + (a < 3 ? pressure : 0)) / volume_ratio;
+        }
+    }
+}
+
+const struct law law_neoh = {
+    .name = "neoh",
+    .doc = "neo-Hookean hyperelasticity; switches UVFp on",
+    .parameters = (const struct argument[]){{"density", "mass/length^3", ARGUMENT_REAL, LIMIT_POSITIVE},
+                                            {"young", "stress", ARGUMENT_REAL, LIMIT_POSITIVE},
+                                            {"poisson", NULL, ARGUMENT_REAL, LIMIT_POISSON}, {0}},
+    .columns = {COLUMN_DEFORMATION, COLUMN_NONE},
+    .viscous_work = 1,
+    .prepare = prepare,
+    .update = update,
+};
