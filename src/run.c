@@ -98,6 +98,11 @@ static enum status open_output(struct run *run)
     run->has_output = true;
     if (open_log(run) != STATUS_FINISHED || !history_open(&run->history, scene, folder))
         return STATUS_FILE;
+    if (scene->writes_vtk) {
+        vtk_open(&run->vtk, folder, scene->job);
+        if (!vtk_write_grid(&run->vtk, scene))
+            return STATUS_FILE;
+    }
     if (scene->writes_animation) {
         size_t size = strlen(scene->job) + 10;
         char *name = memory_array(size, 1, "a file name");
@@ -141,6 +146,8 @@ static enum status write_dump(struct run *run)
         mark_shown(run);
         good = animation_zone(&run->animation, run->scene, &run->source, run->is_shown, run->mpm->time);
     }
+    if (run->scene->writes_vtk)
+        good = vtk_write(&run->vtk, run->scene, &run->source, run->mpm->time) && good;
     run->dumps++;
     fprintf(run->log, "Write output data at time %.6E\n", run->mpm->time);
     good = history_flush(&run->history) && good;
@@ -223,6 +230,8 @@ static enum status write_step(struct run *run)
 
 enum status run_step(struct run *run)
 {
+    run->mpm->smooths = store_has(run->mpm->store, COLUMN_SMOOTHED_PRESSURE)
+                     && run->mpm->time + run->mpm->time_step >= (double)run->next_output;
     mpm_step(run->mpm);
     struct instability instability = mpm_check(run->mpm);
     if (instability.is_stopped) {
@@ -250,6 +259,7 @@ static bool close_output(struct run *run)
         good = false;
     }
     memory_free(run->log_path);
+    vtk_close(&run->vtk);
     return good;
 }
 

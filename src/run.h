@@ -10,6 +10,7 @@
 #include "mpm/mpm.h"
 #include "output/history.h"
 #include "output/progress.h"
+#include "output/vtk.h"
 
 /* What the command line says. */
 struct run_options {
@@ -31,6 +32,7 @@ struct run {
     char *log_path;
     struct table animation;
     struct history history;
+    struct vtk_series vtk;
     struct progress progress;
     struct result_source source;
     unsigned char *is_shown; /* per id, room for the animation */

@@ -197,24 +197,17 @@ static void read_materials(struct reader *reader, const struct deck_word *word, 
     set_mass_cutoff(scene);
 }
 
-static void read_eos(struct reader *reader, const struct deck_word *word, const struct value *values)
+/* What needs this equation of state is not to be reported too. */
+static void fail_eos(struct reader *reader, const struct deck_word *word)
 {
-    struct scene *scene = reader->scene;
-    struct value constants[KEYWORD_ARGUMENTS];
+    (void)word;
+    reader->has_bad_material = true;
+    reader_skip_numbers(reader);
+}
+
+static void set_eos(struct material *material, const struct eos *eos, const struct value *constants)
+{
     double numbers[KEYWORD_ARGUMENTS];
-    const struct eos *eos = eos_find(values[1].integer);
-    bool good = reader_needs(reader, word, "mate")
-             && reader_check_id(reader, &values[0], (long)scene->n_materials, "material");
-    if (!eos)
-        diagnostics_error(reader->diagnostics, values[1].word.place,
-                          "there is no equation of state of type %ld; expected 1 to 4", values[1].integer);
-    if (!good || !eos || !scene->materials[values[0].integer - 1].is_given) {
-        reader_skip_numbers(reader);
-        return;
-    }
-    if (!reader_values(reader, eos->arguments, "seos", constants))
-        return;
-    struct material *material = &scene->materials[values[0].integer - 1].material;
     for (int i = 0; i < argument_count(eos->arguments); i++)
         numbers[i] = material->eos_number[i] = constants[i].real;
     material->eos = eos;
@@ -222,6 +215,22 @@ static void read_eos(struct reader *reader, const struct deck_word *word, const 
     eos->prepare(material, numbers);
     if (material->law == &law_null) /* as in the reference, for every type (spec 3.2, Q) */
         material->eos_constant[0] = material->wave_speed;
+}
+
+static void read_eos(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    struct scene *scene = reader->scene;
+    struct value constants[KEYWORD_ARGUMENTS];
+    const struct eos *eos = eos_find(values[1].integer);
+    bool good = reader_needs(reader, word, "mate")
+             && reader_check_id(reader, &values[0], (long)scene->n_materials, "material");
+    if (!eos)
+        diagnostics_error(reader->diagnostics, values[1].word.place,
+                          "there is no equation of state of type %ld; expected 1 to 4", values[1].integer);
+    if (!good || !eos || !reader_values(reader, eos->arguments, "seos", constants))
+        fail_eos(reader, word);
+    else if (scene->materials[values[0].integer - 1].is_given) /* otherwise its material is wrong or missing */
+        set_eos(&scene->materials[values[0].integer - 1].material, eos, constants);
 }
 
 static void read_detonation(struct reader *reader, const struct deck_word *word, const struct value *values)
@@ -241,7 +250,7 @@ const struct keyword material_keywords[] = {
     {.name = "seos",
      .arguments = (const struct argument[]){{"material", NULL, ARGUMENT_INTEGER, LIMIT_COUNT},
                                             {"type", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
-     .apply = read_eos, .doc = "equation of state of a material; after its mate",
+     .apply = read_eos, .fail = fail_eos, .doc = "equation of state of a material; after its mate",
      .details = "seos material type constants...\nThe types:"},
     {.name = "deto",
      .arguments = (const struct argument[]){{"x", "length", ARGUMENT_REAL, LIMIT_NONE},
@@ -256,10 +265,11 @@ void reader_finish_materials(struct reader *reader)
     for (size_t i = 0; i < scene->n_materials && !reader->has_bad_material; i++) {
         const struct scene_material *entry = &scene->materials[i];
         if (!entry->is_given)
-            diagnostics_error(reader->diagnostics, reader->materials_place, "material %zu of %ld is not given in 'mate'",
-                              i + 1, scene->materials_declared);
+            diagnostics_error(reader->diagnostics, reader->materials_place,
+                              "material %zu of %ld is not given in 'mate'", i + 1, scene->materials_declared);
         else if (entry->material.law->needs_eos && !entry->material.eos)
-            diagnostics_error(reader->diagnostics, entry->place, "law '%s' needs an equation of state; expected 'seos %zu ...'",
+            diagnostics_error(reader->diagnostics, entry->place,
+                              "law '%s' needs an equation of state; expected 'seos %zu ...'",
                               entry->material.law->name, i + 1);
     }
 }

@@ -123,6 +123,23 @@ static void read_headers(struct reader *reader, const struct deck_word *word, co
     read_choice(reader, &values[0], "mpm3d", "tecplot", "head", &reader->scene->bare_headers);
 }
 
+static void read_paraview(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    static const char *const formats[] = {"ascii", "binary", NULL};
+    (void)word;
+    (void)values;
+    int format = reader_optional(reader, formats);
+    reader->scene->writes_vtk = true;
+    reader->scene->vtk_format = format == 0 ? VTK_TEXT : format == 1 ? VTK_BINARY : VTK_AUTO;
+}
+
+static void read_smoothing(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    (void)values;
+    reader->scene->smooths_pressure = true;
+}
+
 #define INTERVAL ((const struct argument[]){{"interval", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}})
 #define RESULT {"result", NULL, ARGUMENT_WORD, LIMIT_NONE}
 #define LENGTH(name) {name, "length", ARGUMENT_REAL, LIMIT_NONE}
@@ -149,6 +166,7 @@ const struct keyword output_keywords[] = {
     {.name = "digi", .long_name = "digits",
      .arguments = (const struct argument[]){{"digits", NULL, ARGUMENT_INTEGER, LIMIT_DIGITS}, {0}},
      .field = offsetof(struct scene, digits), .doc = "significant digits in the tables (7; MPM3D-F90 has 4)"},
-    {.name = "smoo", .doc = "smoothed pressure", .later = "smoothed pressure"},
-    {.name = "para", .doc = "ParaView output", .later = "ParaView output"},
+    {.name = "smoo", .apply = read_smoothing, .doc = "adds a smoothed pressure to the ParaView files"},
+    {.name = "para", .long_name = "paraview", .apply = read_paraview,
+     .doc = "write ParaView files job_anim_N.vtu and job_anim.pvd; `para ascii` or `para binary` (by size)"},
     {0}};

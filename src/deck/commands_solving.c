@@ -111,9 +111,11 @@ static void read_contact(struct reader *reader, const struct deck_word *word, co
     const struct deck_word *method = &values[0].word;
     bool is_lagrange = method->length >= 4 && strncasecmp(method->text, "lagr", 4) == 0;
     bool is_other = method->length >= 4 && strncasecmp(method->text, "othe", 4) == 0;
+    char shown[40];
     (void)word;
     if (!is_lagrange && !is_other)
-        diagnostics_error(reader->diagnostics, method->place, "the method of contact must be lagr or othe");
+        diagnostics_error(reader->diagnostics, method->place, "the method of contact must be lagr or othe, not '%s'",
+                          text_show(method, shown, sizeof shown));
     scene->contact = is_lagrange ? CONTACT_LAGRANGE : CONTACT_OTHER;
     scene->contact_friction = values[1].real;
     scene->contact_normal = values[2].integer;

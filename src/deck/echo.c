@@ -196,6 +196,10 @@ static void echo_output(const struct scene *scene, FILE *stream)
     fprintf(stream, "name %s\nhead %s\n", scene->bare_names ? "mpm3d" : "job", scene->bare_headers ? "mpm3d" : "tecplot");
     if (scene->writes_animation)
         fprintf(stream, "tecp\n");
+    if (scene->writes_vtk)
+        fprintf(stream, "para%s\n", scene->vtk_format == VTK_TEXT ? " ascii" : scene->vtk_format == VTK_BINARY ? " binary" : "");
+    if (scene->smooths_pressure)
+        fprintf(stream, "smoo\n");
     for (size_t i = 0; i < scene->n_results; i++)
         fprintf(stream, "outr %s\n", scene->results[i]->name);
     for (size_t i = 0; i < scene->n_curves; i++) {

@@ -40,6 +40,9 @@ struct scene_load {
 
 enum scene_velocity_kind { VELOCITY_PARTICLE, VELOCITY_BODY, VELOCITY_SINE, VELOCITY_ROWS, VELOCITY_BENDING };
 
+/* How ParaView files are written: as text when they are small, else binary; or always one of them. */
+enum vtk_format { VTK_AUTO, VTK_TEXT, VTK_BINARY };
+
 enum contact_method { CONTACT_NONE, CONTACT_LAGRANGE, CONTACT_OTHER };
 
 /* How particles and grid are connected. */
@@ -88,7 +91,8 @@ struct scene {
     double damping; /* mass proportional, 1/time */
     bool kinetic_damping;
     bool sorts;
-    bool writes_animation, bare_names, bare_headers;
+    bool writes_animation, writes_vtk, smooths_pressure, bare_names, bare_headers;
+    enum vtk_format vtk_format;
     long digits; /* significant, in the tables */
 
     struct scene_material *materials;

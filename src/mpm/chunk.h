@@ -90,6 +90,25 @@ THREADS_INLINE void chunk_set_gradient(struct workspace *w, int32_t j, double g[
     w->trace[j] = g[0][0] + g[1][1] + g[2][2];
 }
 
+/* The cells of a chunk that hold particles, one after the other: particles from ... to - 1. */
+struct cell_walk {
+    int cell;
+    int32_t from, to;
+};
+
+THREADS_INLINE bool walk_next(const struct chunk *chunk, struct cell_walk *walk)
+{
+    const int32_t *first = chunk->block->cell_first;
+    int32_t end = chunk->from + chunk->count;
+    walk->from = walk->to;
+    if (walk->to == chunk->count)
+        return false;
+    while (first[walk->cell + 1] <= chunk->from + walk->from)
+        walk->cell++;
+    walk->to = (first[walk->cell + 1] < end ? first[walk->cell + 1] : end) - chunk->from;
+    return true;
+}
+
 /* Low corner of a cell of the chunk's block, along axis a. */
 THREADS_INLINE double chunk_cell_low(const struct mpm *mpm, const struct chunk *chunk, int cell, int a)
 {

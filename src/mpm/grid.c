@@ -255,6 +255,18 @@ void grid_straining_velocity(struct grid *grid, int first, int count)
     }
 }
 
+void grid_quotient(struct grid *grid, int first)
+{
+    const int32_t blocks = grid->cells->n_blocks;
+#pragma omp parallel for schedule(static) if (blocks >= SHARED_BLOCKS)
+    for (int32_t b = 0; b < blocks; b++) {
+        grid_collect(grid, b, first, 2, 0);
+        double *above = grid_field(grid, b, first), *below = grid_field(grid, b, first + 1);
+        for (int n = 0; n < BLOCK_CELLS; n++)
+            above[n] = below[n] != 0 ? above[n] / below[n] : 0;
+    }
+}
+
 size_t grid_bytes(const struct grid *grid)
 {
     return (grid->node_capacity + grid->patch_capacity) * sizeof *grid->node + grid->fixed_capacity;

@@ -108,6 +108,9 @@ void grid_divide(struct grid *grid);
  * first when it is among them), zero in fixed directions. */
 void grid_straining_velocity(struct grid *grid, int first, int count);
 
+/* Sums field 0 and 1 of the patches and puts their quotient (0 where the second is 0) into `first`. */
+void grid_quotient(struct grid *grid, int first);
+
 /* What these passes do with one block once its nodes are summed. */
 void grid_integrate_block(struct grid *grid, int32_t block, double step);
 void grid_straining_block(struct grid *grid, int32_t block, int source);

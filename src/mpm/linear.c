@@ -216,25 +216,6 @@ THREADS_INLINE struct polynomial polynomial_of(const double *field, int base)
     return c;
 }
 
-/* The cells of a chunk that hold particles, one after the other: particles from ... to - 1. */
-struct cell_walk {
-    int cell;
-    int32_t from, to;
-};
-
-THREADS_INLINE bool walk_next(const struct chunk *chunk, struct cell_walk *walk)
-{
-    const int32_t *first = chunk->block->cell_first;
-    int32_t end = chunk->from + chunk->count;
-    walk->from = walk->to;
-    if (walk->to == chunk->count)
-        return false;
-    while (first[walk->cell + 1] <= chunk->from + walk->from)
-        walk->cell++;
-    walk->to = (first[walk->cell + 1] < end ? first[walk->cell + 1] : end) - chunk->from;
-    return true;
-}
-
 /* Positions of the chunk's particles in their cells, 0 ... 1, into workspace.local. */
 THREADS_INLINE void find_local(const struct mpm *mpm, const struct chunk *chunk, double *const position[3])
 {
@@ -443,5 +424,53 @@ static void gather_strain(struct mpm *mpm, int32_t b)
         strain_and_move(mpm, b);
 }
 
-const struct shape shape_linear = {
-    .name = "linear", .scatter = scatter, .gather_velocity = gather_velocity, .gather_strain = gather_strain};
+/* --- smoothed pressure --- */
+
+static void smooth_give(struct mpm *mpm, int32_t b)
+{
+    struct workspace *w = &mpm->workspaces[threads_self()];
+    struct chunk chunk = {.block = &mpm->cells->blocks[b], .block_index = b, .workspace = w};
+    double(*patch)[PATCH_NODES] = patch_of(mpm, b);
+    memset(patch, 0, 2 * sizeof *patch);
+    while (chunk_next(mpm, &chunk)) {
+        double *position[3];
+        for (int a = 0; a < 3; a++)
+            position[a] = chunk_read(&chunk, mpm->store->real[mpm->place][a], w->copy[a]);
+        find_local(mpm, &chunk, position);
+        for (struct cell_walk walk = {0}; walk_next(&chunk, &walk);)
+            for (int32_t j = walk.from; j < walk.to; j++)
+                for (int i = 0; i < 8; i++) {
+                    double volume = smoothing_volume(mpm, (size_t)chunk.order[j]);
+                    double weight = (i & 1 ? w->local[0][j] : 1 - w->local[0][j])
+                                  * (i & 2 ? w->local[1][j] : 1 - w->local[1][j])
+                                  * (i & 4 ? w->local[2][j] : 1 - w->local[2][j]);
+                    int node = grid_patch_corner(walk.cell, PATCH_EDGE, 0) + corner_offset[i >> 2][i & 3];
+                    patch[0][node] += weight * volume * smoothing_pressure(mpm, (size_t)chunk.order[j]);
+                    patch[1][node] += weight * volume;
+                }
+    }
+}
+
+static void smooth_take(struct mpm *mpm, int32_t b)
+{
+    struct workspace *w = &mpm->workspaces[threads_self()];
+    struct chunk chunk = {.block = &mpm->cells->blocks[b], .block_index = b, .workspace = w};
+    grid_read_patch(mpm->grid, b, NODE_STRAINING, 3, values_of(w, 0)[0]);
+    while (chunk_next(mpm, &chunk)) {
+        double *position[3];
+        for (int a = 0; a < 3; a++)
+            position[a] = chunk_read(&chunk, mpm->store->real[mpm->place][a], w->copy[a]);
+        find_local(mpm, &chunk, position);
+        gather_values(&chunk, values_of(w, 0));
+        for (int32_t j = 0; j < chunk.count; j++)
+            mpm->store->real[COLUMN_SMOOTHED_PRESSURE][0][chunk.order[j]] = w->gathered[0][j];
+    }
+}
+
+const struct shape shape_linear = {.name = "linear",
+                                   .scatter = scatter,
+                                   .gather_velocity = gather_velocity,
+                                   .gather_strain = gather_strain,
+                                   .smooth_give = smooth_give,
+                                   .smooth_take = smooth_take,
+                                   .smooths_at_start = true};

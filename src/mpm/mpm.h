@@ -45,6 +45,12 @@ struct shape {
     void (*strain_first)(struct mpm *mpm);
     void (*integrate)(struct mpm *mpm, bool with_momentum);
     void (*strain_last)(struct mpm *mpm);
+    /* Smoothed pressure (spec 9.6): volume and volume times pressure to the patches, node sums (NULL:
+     * the grid's own), and back; with the particles' places at the start of the step, or after it. */
+    void (*smooth_give)(struct mpm *mpm, int32_t block);
+    void (*smooth_nodes)(struct mpm *mpm);
+    void (*smooth_take)(struct mpm *mpm, int32_t block);
+    bool smooths_at_start;
 };
 
 extern const struct shape shape_linear, shape_gimp, shape_gimp_own, shape_bimp, shape_staggered;
@@ -64,6 +70,7 @@ struct mpm {
     enum column place;       /* positions that tell cells and weights: present, or initial ones (TLmp) */
     bool is_total;           /* total Lagrangian: cells stay, forces from the first Piola-Kirchhoff stress */
     int straining_field;     /* node field of the velocities that strain particles: of the scheme */
+    bool smooths;            /* the next step computes the smoothed pressure */
     bool has_external_force; /* loads, gravity or damping */
     bool has_one_law;        /* all bodies share one material */
     struct contact *contact; /* NULL: all components share one velocity field */
@@ -162,6 +169,12 @@ void faces_open(struct mpm *mpm);
 void faces_close(struct mpm *mpm);
 void faces_scatter(struct mpm *mpm, int force_field); /* adds to field force_field + 0, 1, 2 of the patches */
 double faces_work(const struct mpm *mpm); /* after the grid is integrated */
+
+/* Smoothed pressure (spec 9.6). */
+void smoothing_start(struct mpm *mpm);  /* before a step */
+void smoothing_finish(struct mpm *mpm); /* after its stress and motion, before cells change */
+double smoothing_pressure(const struct mpm *mpm, size_t p);
+double smoothing_volume(const struct mpm *mpm, size_t p);
 
 /* Contact between components: after the momentum equation, before velocities are taken. */
 void contact_open(struct mpm *mpm);

@@ -32,6 +32,10 @@ static uint64_t wanted_columns(const struct scene *scene)
             wanted |= column_bit(COLUMN_LOAD);
     if (scene->tracks_deformation || scene->is_total)
         wanted |= column_bit(COLUMN_DEFORMATION);
+    if (scene->smooths_pressure && scene->writes_vtk)
+        wanted |= column_bit(COLUMN_SMOOTHED_PRESSURE) | column_bit(COLUMN_START_POSITION);
+    if (scene->writes_vtk)
+        wanted |= column_bit(COLUMN_INITIAL_POSITION);
     if (scene->is_total)
         wanted |= column_bit(COLUMN_FIRST_STRESS) | column_bit(COLUMN_INITIAL_POSITION);
     return wanted;

@@ -82,15 +82,16 @@ THREADS_INLINE void find_weights(const struct mpm *mpm, const struct chunk *chun
 {
     static const int stride[3] = {1, EDGE, EDGE * EDGE};
     const double inverse = 1 / mpm->cells->frame.size;
-    const uint8_t *cell = mpm->cells->cell;
     struct workspace *w = chunk->workspace;
     int32_t low[CHUNK_PARTICLES];
-    for (int32_t j = 0; j < chunk->count; j++)
-        w->base[j] = grid_patch_corner(cell[chunk->order[j]], EDGE, 1);
+    for (struct cell_walk walk = {0}; walk_next(chunk, &walk);)
+        for (int32_t j = walk.from; j < walk.to; j++)
+            w->base[j] = grid_patch_corner(walk.cell, EDGE, 1);
     for (int a = 0; a < 3; a++) {
-        for (int32_t j = 0; j < chunk->count; j++) {
-            double cell_low = chunk_cell_low(mpm, chunk, cell[chunk->order[j]], a);
-            w->local[a][j] = (position[a][j] - cell_low) * inverse;
+        for (struct cell_walk walk = {0}; walk_next(chunk, &walk);) {
+            double cell_low = chunk_cell_low(mpm, chunk, walk.cell, a);
+            for (int32_t j = walk.from; j < walk.to; j++)
+                w->local[a][j] = (position[a][j] - cell_low) * inverse;
         }
         weights(mpm, chunk, a, w->local[a], low);
         for (int32_t j = 0; j < chunk->count; j++)
@@ -294,6 +295,34 @@ THREADS_INLINE void strain_block(struct mpm *mpm, int32_t b, axis_weights *weigh
     }
 }
 
+/* Smoothed pressure: weights at the new position, counted from the old cell (spec 9.6, Q). */
+THREADS_INLINE void smooth_block(struct mpm *mpm, int32_t b, axis_weights *weights, bool gives)
+{
+    struct workspace *w = &mpm->workspaces[threads_self()];
+    struct chunk chunk = {.block = &mpm->cells->blocks[b], .block_index = b, .workspace = w};
+    double *patch = grid_patch(mpm->grid, b, 0);
+    if (gives)
+        memset(patch, 0, 2 * PATCH_NODES * sizeof *patch);
+    else
+        grid_read_patch(mpm->grid, b, NODE_STRAINING, 3, w->patch);
+    while (chunk_next(mpm, &chunk)) {
+        double *position[3];
+        for (int a = 0; a < 3; a++)
+            position[a] = chunk_read(&chunk, mpm->store->real[COLUMN_POSITION][a], w->copy[a]);
+        find_weights(mpm, &chunk, position, weights);
+        if (!gives)
+            gather_values(&chunk, w->patch);
+        for (int32_t j = 0; j < chunk.count; j++) {
+            double volume = smoothing_volume(mpm, (size_t)chunk.order[j]);
+            double values[2] = {volume * smoothing_pressure(mpm, (size_t)chunk.order[j]), volume};
+            if (gives)
+                scatter_values(w, j, patch, values, 2);
+            else
+                mpm->store->real[COLUMN_SMOOTHED_PRESSURE][0][chunk.order[j]] = w->gathered[0][j];
+        }
+    }
+}
+
 /* The passes of each kind of weights. */
 #define SMOOTH_SHAPE(kind, word, weights)                                                                              \
     THREADS_VECTORISED                                                                                                 \
@@ -311,8 +340,17 @@ THREADS_INLINE void strain_block(struct mpm *mpm, int32_t b, axis_weights *weigh
     {                                                                                                                  \
         strain_block(mpm, b, weights);                                                                                 \
     }                                                                                                                  \
+    static void kind##_give(struct mpm *mpm, int32_t b)                                                                \
+    {                                                                                                                  \
+        smooth_block(mpm, b, weights, true);                                                                           \
+    }                                                                                                                  \
+    static void kind##_take(struct mpm *mpm, int32_t b)                                                                \
+    {                                                                                                                  \
+        smooth_block(mpm, b, weights, false);                                                                          \
+    }                                                                                                                  \
     const struct shape shape_##kind = {.name = word, .reach = 1, .scatter = kind##_scatter,                            \
-                                       .gather_velocity = kind##_velocity, .gather_strain = kind##_strain};
+                                       .gather_velocity = kind##_velocity, .gather_strain = kind##_strain,             \
+                                       .smooth_give = kind##_give, .smooth_take = kind##_take};
 
 SMOOTH_SHAPE(gimp, "gimp", fixed_hat_weights)
 SMOOTH_SHAPE(gimp_own, "gimp cp", own_hat_weights)

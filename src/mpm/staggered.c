@@ -445,6 +445,75 @@ static void gather_strain(struct mpm *mpm, int32_t b)
     }
 }
 
+/* --- smoothed pressure --- */
+
+static void smooth_give(struct mpm *mpm, int32_t b)
+{
+    struct workspace *w = &mpm->workspaces[threads_self()];
+    struct chunk chunk = {.block = &mpm->cells->blocks[b], .block_index = b, .workspace = w};
+    double *patch = grid_patch(mpm->centres, b, 0);
+    memset(patch, 0, 2 * PATCH_NODES * sizeof *patch);
+    while (chunk_next(mpm, &chunk)) {
+        find_weights(mpm, &chunk);
+        for (int32_t j = 0; j < chunk.count; j++) {
+            double volume = smoothing_volume(mpm, (size_t)chunk.order[j]);
+            double values[2] = {volume * smoothing_pressure(mpm, (size_t)chunk.order[j]), volume};
+            give(w, j, patch, values, 2);
+        }
+    }
+}
+
+static void collect_pressure(const struct mpm *mpm, int32_t b)
+{
+    grid_collect(mpm->centres, b, CENTRE_MOMENTUM, 2, 0);
+}
+
+/* Sums of a node from the centres around it, divided. */
+static void node_pressure(const struct mpm *mpm, int32_t b)
+{
+    for (int n = 0; n < BLOCK_CELLS; n++) {
+        double sum[2] = {0};
+        for (int i = 0; i < 8; i++) {
+            int place, d[3] = {(i & 1) - 1, (i >> 1 & 1) - 1, (i >> 2) - 1};
+            int32_t source = beside(mpm->grid, b, n, d, &place);
+            for (int f = 0; f < 2 && source >= 0; f++)
+                sum[f] += 0.125 * grid_field(mpm->centres, source, CENTRE_MOMENTUM + f)[place];
+        }
+        bool counts = sum[1] > 0 && grid_field(mpm->grid, b, NODE_MASS)[n] > mpm->grid->mass_cutoff;
+        grid_field(mpm->grid, b, NODE_STRAINING)[n] = counts ? sum[0] / sum[1] : 0;
+    }
+}
+
+static void centre_pressure(const struct mpm *mpm, int32_t b)
+{
+    static const double middle[3] = {0, 0, 0};
+    for (int n = 0; n < BLOCK_CELLS; n++)
+        grid_field(mpm->centres, b, CENTRE_VELOCITY)[n] = value_in_cell(mpm, b, n, NODE_STRAINING, middle);
+}
+
+static void smooth_nodes(struct mpm *mpm)
+{
+    each_block(mpm, collect_pressure);
+    each_block(mpm, node_pressure);
+    each_block(mpm, centre_pressure);
+}
+
+static void smooth_take(struct mpm *mpm, int32_t b)
+{
+    struct workspace *w = &mpm->workspaces[threads_self()];
+    struct chunk chunk = {.block = &mpm->cells->blocks[b], .block_index = b, .workspace = w};
+    grid_read_patch(mpm->centres, b, CENTRE_VELOCITY, 1, w->patch);
+    while (chunk_next(mpm, &chunk)) {
+        find_weights(mpm, &chunk);
+        for (int32_t j = 0; j < chunk.count; j++) {
+            double sum = 0;
+            for (int i = 0; i < 8; i++)
+                sum += corner_weight(w->weight, j, i) * w->patch[corner_place(w, j, i)];
+            mpm->store->real[COLUMN_SMOOTHED_PRESSURE][0][chunk.order[j]] = sum;
+        }
+    }
+}
+
 const struct shape shape_staggered = {
     .name = "sgmp",
     .reach = 1,
@@ -455,4 +524,8 @@ const struct shape shape_staggered = {
     .strain_first = strain_first,
     .integrate = integrate,
     .strain_last = strain_last,
+    .smooth_give = smooth_give,
+    .smooth_nodes = smooth_nodes,
+    .smooth_take = smooth_take,
+    .smooths_at_start = true,
 };

@@ -204,9 +204,11 @@ void mpm_step(struct mpm *mpm)
     mpm->momentum_factor = mpm->step == 1 ? 0.5 : 1;
     mpm->load_factor = mpm->scene->loading_time > 0 ? fmin(1, mpm->time / mpm->scene->loading_time) : 1;
     clear_block_sums(mpm);
+    smoothing_start(mpm);
     solve_on_grid(mpm);
     update_velocities(mpm);
     update_stress_last(mpm);
+    smoothing_finish(mpm);
     timers_enter(mpm->timers, PHASE_SUMS);
     sum_particles(mpm, blocks);
     add_particles(mpm, frozen_from, mpm->cells->count, &mpm->sums);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The grid: patches against single nodes, boundary codes, what a scatter conserves, uniform stress,
  * tractions on faces. Node values are gathered here node by node from the blocks and patches. */
-#include "base/memory.h"
 #include "base/threads.h"
 #include "check.h"
 #include "random.h"

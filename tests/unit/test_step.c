@@ -99,11 +99,11 @@ static void build_cloud(struct naive *run)
 static void build_faces(struct naive *run)
 {
     struct random random = {2};
-    set_grid(run, 3, 3, 2);
+    set_grid(run, 4, 3, 2);
     set_boundary(run, (const int[6]){2, 0, 1, 0, 0, 2});
     for (int k = 0; k <= 4; k++)
         for (int j = 0; j <= 6; j++)
-            for (int i = 0; i <= 6; i++) {
+            for (int i = 0; i <= 8; i++) {
                 const double x[3] = {run->low[0] + 0.25 * i, run->low[1] + 0.25 * j, run->low[2] + 0.25 * k};
                 const double v[3] = {random_between(&random, -0.4, 0.4), random_between(&random, -0.4, 0.4),
                                      random_between(&random, -0.4, 0.4)};
@@ -446,17 +446,17 @@ struct scene_case {
 static const double TOLERANCE = 1e-11;
 
 static const struct scene_case cases[] = {
-    {"overlap", build_overlap, 60, true, false, true, false},
+    {"overlap", build_overlap, 50, true, false, true, false},
     {"overlap unsorted", build_overlap, 30, false, true, true, false},
     {"components", build_components, 30, false, false, true, false},
     {"cloud", build_cloud, 60, false, false, true, false},
-    {"on faces and nodes", build_faces_by_body, 80, false, false, true, true},
+    {"on faces and nodes", build_faces_by_body, 50, false, false, true, true},
     {"fast", build_fast, 50, false, false, true, false},
     {"bar along x", build_bar_x, 80, false, false, true, false},
     {"bar along y", build_bar_y, 80, false, false, true, false},
     {"bar along z", build_bar_z, 80, false, false, true, false},
     {"leaving", build_leaving, 80, false, false, true, true},
-    {"walls", build_walls, 60, true, false, true, false},
+    {"walls", build_walls, 40, true, false, true, false},
     {"loads", build_loads, 80, false, false, true, false},
     {"kinetic damping", build_kinetic_damping, 80, false, false, false, false},
     {"viscous", build_viscous, 80, false, false, true, false},
