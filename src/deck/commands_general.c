@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "deck/reader.h"
 
+#include <limits.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -14,6 +15,13 @@ static void read_title(struct reader *reader, const struct deck_word *word, cons
     reader->command = NULL; /* a number on the next line is none too many for the title */
     memory_free(reader->scene->title);
     reader->scene->title = text_rest_of_line(reader->text, word);
+}
+
+/* A wrong number of components is reported; no component is too large for it. */
+static void fail_components(struct reader *reader, const struct deck_word *word)
+{
+    (void)word;
+    reader->scene->components = INT_MAX;
 }
 
 /* A count that comes after what it counts. */
@@ -109,7 +117,8 @@ static void read_include(struct reader *reader, const struct deck_word *word, co
 const struct keyword general_keywords[] = {
     {.name = "mpm3", .long_name = "mpm3d", .apply = read_title, .doc = "title: the whole line"},
     {.name = "nbco", .arguments = (const struct argument[]){{"components", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
-     .field = offsetof(struct scene, components), .doc = "number of components (velocity fields for contact)"},
+     .field = offsetof(struct scene, components), .fail = fail_components,
+     .doc = "number of components (velocity fields for contact)"},
     {.name = "nbbo", .arguments = (const struct argument[]){{"bodies", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
      .field = offsetof(struct scene, bodies_declared), .apply = read_bodies, .once = true,
      .doc = "number of bodies; before part, load, velo"},

@@ -177,27 +177,48 @@ const struct keyword solving_keywords[] = {
             "friction; normal of both (0), the first (1) or the second component (2)"},
     {0}};
 
+static void check_contact(struct reader *reader)
+{
+    const struct scene *scene = reader->scene;
+    if (scene->components < 2)
+        diagnostics_error(reader->diagnostics, reader->contact_place,
+                          "'cont' needs two components; expected 'nbco 2' or more");
+    if (scene->interpolation == INTERPOLATION_STAGGERED)
+        diagnostics_error(reader->diagnostics, reader->contact_place,
+                          "'cont' does not go with 'sgmp'; take gimp or bimp");
+    if (scene->is_total)
+        diagnostics_error(reader->diagnostics, reader->contact_place, "'cont' does not go with 'TLmp'");
+}
+
+static void check_total(struct reader *reader)
+{
+    const struct scene *scene = reader->scene;
+    if (scene->interpolation != INTERPOLATION_LINEAR && scene->interpolation != INTERPOLATION_STAGGERED)
+        diagnostics_error(reader->diagnostics, reader->total_place,
+                          "'TLmp' does not go with 'gimp' or 'bimp'; take sgmp or none");
+    for (size_t i = 0; i < scene->n_materials; i++)
+        if (scene->materials[i].is_given && scene->materials[i].material.law != &law_neoh)
+            diagnostics_error(reader->diagnostics, reader->total_place, "'TLmp' does not go with '%s'; only with neoh",
+                              scene->materials[i].material.law->name);
+}
+
 /* Pairs of words that do not go together (spec 10.1: D10, D12), and words that need others. */
 void reader_finish_solving(struct reader *reader)
 {
     const struct scene *scene = reader->scene;
-    const bool is_smooth = scene->interpolation != INTERPOLATION_LINEAR && scene->interpolation != INTERPOLATION_STAGGERED;
-    if (scene->contact != CONTACT_NONE && scene->components < 2)
-        diagnostics_error(reader->diagnostics, reader->contact_place, "'cont' needs two components; expected 'nbco 2' or more");
-    if (scene->contact != CONTACT_NONE && scene->interpolation == INTERPOLATION_STAGGERED)
-        diagnostics_error(reader->diagnostics, reader->contact_place, "'cont' does not go with 'sgmp'; take gimp or bimp");
-    if (scene->contact != CONTACT_NONE && scene->is_total)
-        diagnostics_error(reader->diagnostics, reader->contact_place, "'cont' does not go with 'TLmp'");
-    if (scene->is_total && is_smooth)
-        diagnostics_error(reader->diagnostics, reader->total_place, "'TLmp' does not go with 'gimp' or 'bimp'; take sgmp or none");
-    for (size_t i = 0; i < scene->n_materials && scene->is_total; i++)
-        if (scene->materials[i].is_given && scene->materials[i].material.law != &law_neoh)
-            diagnostics_error(reader->diagnostics, reader->total_place, "'TLmp' does not go with '%s'; only with neoh",
-                              scene->materials[i].material.law->name);
-    for (size_t i = 0; i < scene->n_loads; i++)
-        if (scene->loads[i].kind == LOAD_FACE && scene->interpolation != INTERPOLATION_LINEAR)
-            diagnostics_error(reader->diagnostics, scene->loads[i].place, "'load face' does not go with gimp, bimp or sgmp");
-    for (size_t b = 1; b < scene->n_bodies && scene->contact == CONTACT_NONE; b++)
+    if (scene->contact != CONTACT_NONE)
+        check_contact(reader);
+    if (scene->is_total)
+        check_total(reader);
+    for (size_t i = 0; i < scene->n_loads && scene->interpolation != INTERPOLATION_LINEAR; i++)
+        if (scene->loads[i].kind == LOAD_FACE) { /* said once */
+            diagnostics_error(reader->diagnostics, scene->loads[i].place,
+                              "'load face' does not go with gimp, bimp or sgmp");
+            break;
+        }
+    if (diagnostics_errors(reader->diagnostics) > 0 || scene->contact != CONTACT_NONE)
+        return;
+    for (size_t b = 1; b < scene->n_bodies; b++)
         if (scene->bodies[b].component != scene->bodies[0].component) {
             diagnostics_warning(reader->diagnostics, scene->bodies[b].component_place,
                                 "this deck has several components and no 'cont': where they touch they stick");

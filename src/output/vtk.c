@@ -385,9 +385,11 @@ static double node_position(const void *context, size_t i, int component)
 static double cell_node(const void *context, size_t i, int component)
 {
     const struct grid_context *grid = context;
-    size_t at[3] = {i % grid->cells[0], i / grid->cells[0] % grid->cells[1], i / (grid->cells[0] * grid->cells[1])};
+    const size_t cell = i / 8, corner = i % 8;
+    size_t at[3] = {cell % grid->cells[0], cell / grid->cells[0] % grid->cells[1], cell / (grid->cells[0] * grid->cells[1])};
+    (void)component;
     for (int a = 0; a < 3; a++)
-        at[a] += (size_t)(component >> a & 1);
+        at[a] += corner >> a & 1;
     return (double)(at[0] + (grid->cells[0] + 1) * (at[1] + (grid->cells[1] + 1) * at[2]));
 }
 
@@ -419,7 +421,7 @@ bool vtk_write_grid(const struct vtk_series *series, const struct scene *scene)
     if (all > LARGEST_GRID) /* nobody looks at that many cells */
         return true;
     const struct data_array points = {"Float64", "Points", 3, nodes, node_position, &grid};
-    const struct data_array arrays[3] = {{"Int64", "connectivity", 8, cells, cell_node, &grid},
+    const struct data_array arrays[3] = {{"Int64", "connectivity", 1, 8 * cells, cell_node, &grid},
                                          {"Int64", "offsets", 1, cells, cell_end, NULL},
                                          {"UInt8", "types", 1, cells, voxel_type, NULL}};
     char *name = file_name(series, "_Grid.vtu"), *part;
