@@ -3,6 +3,7 @@
 #include "deck/keyword.h"
 #include "material/eos.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -10,10 +11,28 @@ enum { SHOWN_LINES = 20 };
 
 static const char *const face_names[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
 
+/* A number with as many digits as it takes to read the same one again. */
+static void print_number(FILE *stream, double value)
+{
+    char text[40];
+    int digits = 6;
+    do
+        snprintf(text, sizeof text, "%.*g", digits, value);
+    while (digits++ < 17 && strtod(text, NULL) != value);
+    fprintf(stream, " %s", text);
+}
+
 static void print_numbers(FILE *stream, const double *values, int count)
 {
     for (int i = 0; i < count; i++)
-        fprintf(stream, " %.17g", values[i]);
+        print_number(stream, values[i]);
+}
+
+static void print_line(FILE *stream, const char *word, const double *values, int count)
+{
+    fputs(word, stream);
+    print_numbers(stream, values, count);
+    fputc('\n', stream);
 }
 
 /* Words whose arguments are stored as they are. */
@@ -30,7 +49,7 @@ static void echo_plain(const struct scene *scene, FILE *stream, enum category ca
             if (row->arguments[i].kind == ARGUMENT_INTEGER)
                 fprintf(stream, " %ld", ((const long *)(const void *)field)[i]);
             else
-                fprintf(stream, " %.17g", ((const double *)(const void *)field)[i]);
+                print_number(stream, ((const double *)(const void *)field)[i]);
         }
         bool is_grid = strcmp(row->name, "grid") == 0;
         fprintf(stream, "%s\n", is_given || is_grid ? "" : "   ! default");
@@ -59,8 +78,11 @@ static void echo_solving(const struct scene *scene, FILE *stream)
                                                  [INTERPOLATION_STAGGERED] = "sgmp\n"};
     fputs(interpolations[scene->interpolation], stream);
     if (scene->contact != CONTACT_NONE)
-        fprintf(stream, "cont %s %.17g %ld\n", scene->contact == CONTACT_LAGRANGE ? "lagr" : "othe",
-                scene->contact_friction, scene->contact_normal);
+        fprintf(stream, "cont %s", scene->contact == CONTACT_LAGRANGE ? "lagr" : "othe");
+    if (scene->contact != CONTACT_NONE) {
+        print_number(stream, scene->contact_friction);
+        fprintf(stream, " %ld\n", scene->contact_normal);
+    }
     if (scene->is_total)
         fprintf(stream, "TLmp\n");
     if (scene->tracks_deformation)
@@ -68,16 +90,16 @@ static void echo_solving(const struct scene *scene, FILE *stream)
     if (scene->kinetic_damping)
         fprintf(stream, "drda\n");
     if (scene->loading_time > 0)
-        fprintf(stream, "QuLo %.17g\n", scene->loading_time);
+        print_line(stream, "QuLo", &scene->loading_time, 1);
     if (scene->loading_time > 0 && scene->settling[1] > 0)
-        fprintf(stream, "quli %.17g %.17g\n", scene->settling[0], scene->settling[1]);
+        print_line(stream, "quli", scene->settling, 2);
 }
 
 /* The mass cutoff comes from the cell size that is known when mate is read (spec 3.1). */
 static void echo_materials(const struct scene *scene, FILE *stream)
 {
     if (scene->cutoff_cell_size > 0)
-        fprintf(stream, "dcel %.17g\n", scene->cutoff_cell_size);
+        print_line(stream, "dcel", &scene->cutoff_cell_size, 1);
     fprintf(stream, "mate\n");
     for (size_t i = 0; i < scene->n_materials; i++) {
         const struct material *material = &scene->materials[i].material;
@@ -98,9 +120,10 @@ static void echo_materials(const struct scene *scene, FILE *stream)
         print_numbers(stream, scene->detonations[i].position, 3);
         fprintf(stream, "\n");
     }
-    if (scene->cutoff_cell_size != scene->cell_size)
-        fprintf(stream, "dcel %.17g   ! after mate: the mass cutoff has the cell size before it, or is zero\n",
-                scene->cell_size);
+    if (scene->cutoff_cell_size != scene->cell_size) {
+        fprintf(stream, "! the mass cutoff has the cell size that comes before mate, or is zero\n");
+        print_line(stream, "dcel", &scene->cell_size, 1);
+    }
 }
 
 static void echo_points(const struct generator *generator, FILE *stream, long first, bool whole)
@@ -135,10 +158,11 @@ static void echo_bodies(const struct scene *scene, FILE *stream, bool whole)
             echo_points(generator, stream, body->first, whole);
             continue;
         }
-        fprintf(stream, "\n  %d %.17g %.17g", generator->material + 1, generator->density, generator->spacing);
+        fprintf(stream, "\n  %d", generator->material + 1);
+        print_numbers(stream, (double[]){generator->density, generator->spacing}, 2);
         for (int i = 3; i < argument_count(generator->row->arguments); i++) {
             bool is_axis = generator->row->arguments[i].kind == ARGUMENT_WORD;
-            fprintf(stream, is_axis ? " %.0f" : " %.17g", generator->number[i - 3] + is_axis);
+            print_number(stream, generator->number[i - 3] + is_axis);
         }
         fprintf(stream, "   ! particles %ld to %ld\n", body->first + 1, body->first + body->count);
     }
