@@ -74,14 +74,42 @@ static enum status build(struct run *run)
 
 /* --- output --- */
 
+/* Lists particles that left the grid since the last call. New ones come first in their part of the
+ * order. */
+static void write_lost(struct run *run)
+{
+    const struct cell_list *cells = run->mpm->cells;
+    const struct store *store = run->mpm->store;
+    const int32_t lost = cells->count - cells->in_cells;
+    for (int32_t k = lost - run->known_lost - 1; k >= 0; k--) {
+        const int32_t p = cells->order[cells->in_cells + k];
+        table_real(&run->lost, run->mpm->time);
+        fprintf(run->lost.stream, " %9d", store->integer[COLUMN_ID][p] + 1);
+        for (int a = 0; a < 3; a++)
+            table_real(&run->lost, store->real[COLUMN_POSITION][a][p]);
+        for (int a = 0; a < 3; a++)
+            table_real(&run->lost, store->real[COLUMN_VELOCITY][a][p]);
+        fputc('\n', run->lost.stream);
+    }
+    run->known_lost = lost;
+}
+
+/* Opens the table "job" + ending in the folder of the run. */
+static bool open_table(struct run *run, struct table *table, const char *ending)
+{
+    size_t size = strlen(run->scene->job) + strlen(ending) + 1;
+    char *name = memory_array(size, 1, "a file name");
+    snprintf(name, size, "%s%s", run->scene->job, ending);
+    bool good = table_open(table, run->options.folder, name,
+                           (struct table_style){(int)run->scene->digits, run->scene->bare_headers});
+    memory_free(name);
+    return good;
+}
+
 static enum status open_log(struct run *run)
 {
     struct table table = {0};
-    size_t size = strlen(run->scene->job) + 5;
-    char *name = memory_array(size, 1, "a file name");
-    snprintf(name, size, "%s.out", run->scene->job);
-    bool good = table_open(&table, run->options.folder, name, (struct table_style){7, false});
-    memory_free(name);
+    bool good = open_table(run, &table, ".out");
     run->log = table.stream;
     run->log_path = table.path;
     return good ? STATUS_FINISHED : STATUS_FILE;
@@ -104,15 +132,16 @@ static enum status open_output(struct run *run)
             return STATUS_FILE;
     }
     if (scene->writes_animation) {
-        size_t size = strlen(scene->job) + 10;
-        char *name = memory_array(size, 1, "a file name");
-        snprintf(name, size, "%s_anim.dat", scene->job);
-        bool good = table_open(&run->animation, folder, name, (struct table_style){(int)scene->digits, scene->bare_headers});
-        memory_free(name);
-        if (!good)
+        if (!open_table(run, &run->animation, "_anim.dat"))
             return STATUS_FILE;
         animation_header(&run->animation, scene);
         run->is_shown = memory_array(run->mpm->store->count, 1, "output");
+    }
+    if (scene->writes_lost) {
+        if (!open_table(run, &run->lost, "_lost.dat"))
+            return STATUS_FILE;
+        fprintf(run->lost.stream, "VARIABLES = \"Time\" \"id\" \"X\" \"Y\" \"Z\" \"velx\" \"vely\" \"velz\"\n");
+        write_lost(run);
     }
     return STATUS_FINISHED;
 }
@@ -217,6 +246,8 @@ static enum status write_step(struct run *run)
                                           {mpm->contact_force[0], mpm->contact_force[1], mpm->contact_force[2]}};
     enum status status = STATUS_FINISHED;
     history_step(&run->history, run->scene, &run->source, &totals);
+    if (run->scene->writes_lost)
+        write_lost(run);
     if (mpm->time >= (double)run->next_report) {
         run->next_report = (float)((double)run->next_report + run->scene->report_interval);
         write_report_line(run);
@@ -235,6 +266,8 @@ enum status run_step(struct run *run)
     mpm_step(run->mpm);
     struct instability instability = mpm_check(run->mpm);
     if (instability.is_stopped) {
+        if (run->scene->writes_lost)
+            write_lost(run);
         progress_close(&run->progress);
         summary_instability(run->mpm, &instability, stderr);
         summary_instability(run->mpm, &instability, run->log);
@@ -253,6 +286,8 @@ static bool close_output(struct run *run)
     bool good = true;
     if (run->animation.stream || run->animation.path)
         good = table_close(&run->animation);
+    if (run->lost.path)
+        good = table_close(&run->lost) && good;
     good = history_close(&run->history) && good;
     if (run->log && (ferror(run->log) | fclose(run->log)) != 0) {
         status_error("cannot write '%s': %s", run->log_path, strerror(errno));

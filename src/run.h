@@ -31,6 +31,8 @@ struct run {
     FILE *log;
     char *log_path;
     struct table animation;
+    struct table lost; /* particles that left the grid, on request */
+    int32_t known_lost;
     struct history history;
     struct vtk_series vtk;
     struct progress progress;

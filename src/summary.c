@@ -41,7 +41,7 @@ void summary_start(const struct mpm *mpm, FILE *stream)
 
 void summary_instability(const struct mpm *mpm, const struct instability *instability, FILE *stream)
 {
-    fprintf(stream, "mpm3d: the run became unstable at step %ld, time %.6E: %s\n", mpm->step, mpm->time,
+    fprintf(stream, "mpm3d: the run is stopped at step %ld, time %.6E: %s\n", mpm->step, mpm->time,
             instability->cause);
     if (instability->particle >= 0) {
         size_t p = (size_t)mpm->store->index_of_id[instability->particle];
@@ -76,10 +76,14 @@ static void print_lost(const struct mpm *mpm, FILE *stream)
         fprintf(stream, "no particle lost");
         return;
     }
-    fprintf(stream, "%d particles left the grid and are frozen (first ids:", lost);
+    fprintf(stream, "%d particles left the grid and are %s (first ids:", lost,
+            mpm->scene->lost == LOST_DROP ? "left out" : "frozen");
     for (int32_t k = cells->in_cells; k < cells->count && k < cells->in_cells + SHOWN_LOST; k++)
         fprintf(stream, " %d", mpm->store->integer[COLUMN_ID][cells->order[k]] + 1);
-    fprintf(stream, "%s)", lost > SHOWN_LOST ? " ..." : "");
+    int32_t p = cells->order[cells->in_cells];
+    fprintf(stream, "%s; the first at %.6g %.6g %.6g)", lost > SHOWN_LOST ? " ..." : "",
+            mpm->store->real[COLUMN_POSITION][0][p], mpm->store->real[COLUMN_POSITION][1][p],
+            mpm->store->real[COLUMN_POSITION][2][p]);
 }
 
 /* Change of momentum relative to the sum of all particles' |m v| scale. */

@@ -123,6 +123,12 @@ static void read_headers(struct reader *reader, const struct deck_word *word, co
     read_choice(reader, &values[0], "mpm3d", "tecplot", "head", &reader->scene->bare_headers);
 }
 
+static void read_zones(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    read_choice(reader, &values[0], "body", "all", "zone", &reader->scene->zones_by_body);
+}
+
 static void read_paraview(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     static const char *const formats[] = {"ascii", "binary", NULL};
@@ -163,6 +169,8 @@ const struct keyword output_keywords[] = {
     {.name = "head", .long_name = "header",
      .arguments = (const struct argument[]){{"tecplot|mpm3d", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}},
      .apply = read_headers, .doc = "headers of the tables: Tecplot's, or the bare ones of MPM3D-F90"},
+    {.name = "zone", .arguments = (const struct argument[]){{"all|body", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}},
+     .apply = read_zones, .doc = "zones of the animation file: one of all particles (default), or one for each body"},
     {.name = "digi", .long_name = "digits",
      .arguments = (const struct argument[]){{"digits", NULL, ARGUMENT_INTEGER, LIMIT_DIGITS}, {0}},
      .field = offsetof(struct scene, digits), .doc = "significant digits in the tables (7; MPM3D-F90 has 4)"},

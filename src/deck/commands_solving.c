@@ -91,6 +91,52 @@ static void read_bimp(struct reader *reader, const struct deck_word *word, const
         reader->scene->interpolation = INTERPOLATION_BIMP;
 }
 
+static void read_transfer(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    static const struct argument share[] = {{"share", NULL, ARGUMENT_REAL, LIMIT_FRACTION}, {0}};
+    static const char *const names[] = {"flip", "pic", "apic", "blend"};
+    struct scene *scene = reader->scene;
+    struct value value[2];
+    char name[40];
+    int found = -1;
+    text_copy(&values[0].word, name, sizeof name);
+    for (int i = 0; i < 4; i++)
+        if (strncasecmp(name, names[i], 4) == 0)
+            found = i;
+    reader->transfer_place = word->place;
+    if (found < 0)
+        diagnostics_error(reader->diagnostics, values[0].word.place, "xfer must be flip, pic, apic or blend, not '%s'", name);
+    if (found == 3 && !reader_values(reader, share, "xfer blend", value))
+        return;
+    scene->transfer = found == 0 ? TRANSFER_FLIP : found == 2 ? TRANSFER_AFFINE : TRANSFER_BLEND;
+    scene->flip_share = found == 3 ? value[0].real : found == 1 ? 0 : 1;
+}
+
+static void read_averaging(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)values;
+    reader->averaging_place = word->place;
+    reader->scene->averages_volume = true;
+}
+
+static void read_lost(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    static const char *const names[] = {[LOST_KEEP] = "keep", [LOST_DROP] = "drop", [LOST_STOP] = "stop"};
+    static const char *const writing[] = {"write", NULL};
+    char name[40];
+    int found = -1;
+    (void)word;
+    text_copy(&values[0].word, name, sizeof name);
+    for (int i = 0; i < 3; i++)
+        if (strncasecmp(name, names[i], 4) == 0)
+            found = i;
+    if (found < 0)
+        diagnostics_error(reader->diagnostics, values[0].word.place, "lost must be keep, drop or stop, not '%s'", name);
+    else
+        reader->scene->lost = (enum lost_policy)found;
+    reader->scene->writes_lost = reader_optional(reader, writing) == 0;
+}
+
 static void read_staggered(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     (void)values;
@@ -160,6 +206,18 @@ const struct keyword solving_keywords[] = {
      .field = offsetof(struct scene, damping), .doc = "damping force -rate * mass * velocity on each particle"},
     {.name = "drda", .apply = read_kinetic_damping,
      .doc = "kinetic damping: velocities are set to zero whenever the kinetic energy falls"},
+    {.name = "xfer", .long_name = "transfer",
+     .arguments = (const struct argument[]){{"flip|pic|apic|blend", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}},
+     .apply = read_transfer,
+     .doc = "velocities back to particles: their change (flip, default), the grid's (pic), the grid's with gradient "
+            "(apic), or `xfer blend a` for a flip + (1 - a) pic"},
+    {.name = "bbar", .apply = read_averaging,
+     .doc = "volume change and pressure averaged over the cell, against volumetric locking of linear shapes"},
+    {.name = "lost",
+     .arguments = (const struct argument[]){{"keep|drop|stop", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}},
+     .apply = read_lost,
+     .doc = "particles that leave the grid: frozen and counted in sums (keep, default), left out (drop), or the end of "
+            "the run (stop); with `write` behind it they are listed in job_lost.dat"},
     {.name = "sort", .arguments = SWITCH, .apply = read_sorting,
      .doc = "keep particles in cell order in memory (on); changes speed, never results"},
     {.name = "gimp", .apply = read_gimp,

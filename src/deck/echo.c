@@ -89,6 +89,15 @@ static void echo_solving(const struct scene *scene, FILE *stream)
         fprintf(stream, "UVFp\n");
     if (scene->kinetic_damping)
         fprintf(stream, "drda\n");
+    if (scene->averages_volume)
+        fprintf(stream, "bbar\n");
+    if (scene->transfer == TRANSFER_AFFINE)
+        fprintf(stream, "xfer apic\n");
+    else if (scene->transfer == TRANSFER_BLEND)
+        print_line(stream, "xfer blend", &scene->flip_share, 1);
+    if (scene->lost != LOST_KEEP || scene->writes_lost)
+        fprintf(stream, "lost %s%s\n", scene->lost == LOST_KEEP ? "keep" : scene->lost == LOST_DROP ? "drop" : "stop",
+                scene->writes_lost ? " write" : "");
     if (scene->loading_time > 0)
         print_line(stream, "QuLo", &scene->loading_time, 1);
     if (scene->loading_time > 0 && scene->settling[1] > 0)
@@ -220,6 +229,8 @@ static void echo_output(const struct scene *scene, FILE *stream)
     fprintf(stream, "name %s\nhead %s\n", scene->bare_names ? "mpm3d" : "job", scene->bare_headers ? "mpm3d" : "tecplot");
     if (scene->writes_animation)
         fprintf(stream, "tecp\n");
+    if (scene->zones_by_body)
+        fprintf(stream, "zone body\n");
     if (scene->writes_vtk)
         fprintf(stream, "para%s\n", scene->vtk_format == VTK_TEXT ? " ascii" : scene->vtk_format == VTK_BINARY ? " binary" : "");
     if (scene->smooths_pressure)

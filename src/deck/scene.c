@@ -13,6 +13,7 @@ struct scene *scene_open(void)
     scene->bulk[1] = 0.06;
     scene->sorts = true;
     scene->digits = 7;
+    scene->flip_share = 1;
     scene->settling[0] = 100;
     scene->settling[1] = 0;
     return scene;

@@ -43,6 +43,10 @@ enum scene_velocity_kind { VELOCITY_PARTICLE, VELOCITY_BODY, VELOCITY_SINE, VELO
 /* How ParaView files are written: as text when they are small, else binary; or always one of them. */
 enum vtk_format { VTK_AUTO, VTK_TEXT, VTK_BINARY };
 
+/* What becomes of particles that leave the grid, and how velocities go back to particles. */
+enum lost_policy { LOST_KEEP, LOST_DROP, LOST_STOP };
+enum transfer { TRANSFER_FLIP, TRANSFER_BLEND, TRANSFER_AFFINE };
+
 enum contact_method { CONTACT_NONE, CONTACT_LAGRANGE, CONTACT_OTHER };
 
 /* How particles and grid are connected. */
@@ -80,6 +84,12 @@ struct scene {
     enum scheme scheme;
     enum rotation rotation;
     enum interpolation interpolation;
+    enum lost_policy lost;
+    bool writes_lost;
+    enum transfer transfer;
+    double flip_share;       /* TRANSFER_BLEND: share of flip, the rest is pic */
+    bool averages_volume;    /* bbar */
+    bool zones_by_body;
     enum contact_method contact;
     double contact_friction;
     long contact_normal;     /* 0 both components', 1 the first's, 2 the second's */

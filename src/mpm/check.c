@@ -80,6 +80,10 @@ struct instability mpm_check(const struct mpm *mpm)
                  "the time step fell to %.3g of the first one, as a particle has speed %.3g",
                  mpm->time_step / mpm->first_time_step, sums->fastest);
         smaller = mpm->scene->scheme == SCHEME_USL ? "try musl; usl is unstable at nodes of small mass" : smaller;
+    } else if (mpm->scene->lost == LOST_STOP && mpm->cells->in_cells < mpm->cells->count) {
+        result.particle = mpm->store->integer[COLUMN_ID][mpm->cells->order[mpm->cells->in_cells]];
+        snprintf(result.cause, sizeof result.cause, "%d particles left the grid", mpm->cells->count - mpm->cells->in_cells);
+        smaller = "take a larger grid, or lost keep or lost drop";
     } else {
         return result;
     }

@@ -26,6 +26,9 @@ struct workspace {
     double weight[3][3][CHUNK_ROOM], slope[3][3][CHUNK_ROOM]; /* of wide supports, per axis and node */
     int32_t base[CHUNK_ROOM];                                 /* their lowest node in the patch */
     uint8_t cell[CHUNK_ROOM];
+    double acceleration_step; /* of the chunk when transfers blend: the step times flip's share */
+    double affine[9][CHUNK_ROOM]; /* velocity gradient of the chunk, with xfer apic */
+    double cell_mean[BLOCK_CELLS]; /* averages over the block's cells, with bbar */
 };
 
 struct chunk {
@@ -88,6 +91,16 @@ THREADS_INLINE void chunk_set_gradient(struct workspace *w, int32_t j, double g[
     w->spin[1][j] = 0.5 * (g[0][2] - g[2][0]);
     w->spin[2][j] = 0.5 * (g[1][0] - g[0][1]);
     w->trace[j] = g[0][0] + g[1][1] + g[2][2];
+}
+
+/* The other way: g[component][axis] from strain and spin increments. */
+THREADS_INLINE void chunk_get_gradient(const struct workspace *w, int32_t j, double g[3][3])
+{
+    for (int a = 0; a < 3; a++)
+        g[a][a] = w->strain[a][j];
+    g[2][1] = 0.5 * w->strain[3][j] + w->spin[0][j], g[1][2] = 0.5 * w->strain[3][j] - w->spin[0][j];
+    g[0][2] = 0.5 * w->strain[4][j] + w->spin[1][j], g[2][0] = 0.5 * w->strain[4][j] - w->spin[1][j];
+    g[1][0] = 0.5 * w->strain[5][j] + w->spin[2][j], g[0][1] = 0.5 * w->strain[5][j] - w->spin[2][j];
 }
 
 /* The cells of a chunk that hold particles, one after the other: particles from ... to - 1. */

@@ -5,7 +5,8 @@
  * cell of such a particle the outer node plane gets the part that the cell's own particles can
  * balance under uniform stress, (sum of their volumes) / (cell size * sum of loaded areas), and the
  * inner plane the rest; along the face the nodes share by the shape function at the particle. A
- * uniform stress t then satisfies every nodal equation exactly, wherever the face is in its cell. */
+ * uniform stress t then satisfies every nodal equation exactly, wherever the face is in its cell. Where
+ * the body ends inside the cell on the other side too, the place of the face itself tells the share. */
 #include "base/memory.h"
 #include "mpm/mpm.h"
 
@@ -20,6 +21,7 @@ struct face_point {
     double area;
     double outer; /* share of the outer node plane */
     double local[3];
+    double half_spacing; /* from the particle to the face, in cells */
 };
 
 struct face_load {
@@ -48,7 +50,8 @@ static void find_layer(const struct mpm *mpm, struct face_load *face, const stru
         double spacing = body->generator.spacing > 0 ? body->generator.spacing : cbrt(store->real[COLUMN_VOLUME][0][p]);
         if (face->side * x[p] < outermost - 0.25 * spacing)
             continue;
-        face->points[face->n_points++] = (struct face_point){.id = (int32_t)id, .area = spacing * spacing};
+        face->points[face->n_points++] = (struct face_point){
+            .id = (int32_t)id, .area = spacing * spacing, .half_spacing = 0.5 * spacing / mpm->cells->frame.size};
         face->area_of_id[id - body->first] = spacing * spacing;
     }
 }
@@ -109,7 +112,11 @@ static void locate(const struct mpm *mpm, const struct face_load *face, struct f
         double low = frame->low[a] + (double)(block->at[a] * BLOCK_EDGE + in_block) * frame->size;
         point->local[a] = (mpm->store->real[COLUMN_POSITION][a][p] - low) / frame->size;
     }
+    double place = point->local[face->axis] + face->side * point->half_spacing;
+    double from_inner = face->side > 0 ? place : 1 - place;
     point->outer = outer_share(mpm, face, block, point->cell);
+    if (from_inner - point->outer > point->half_spacing) /* the cell is not filled down to its inner plane */
+        point->outer = from_inner;
 }
 
 /* Weight of corner i of the point's cell. */

@@ -45,13 +45,29 @@ THREADS_INLINE void add_corners(double (*patch)[PATCH_NODES], int base, face sum
                 patch[f][base + corner_offset[half][i]] += sum[f][half][i];
 }
 
+/* Mean stress of a cell's particles, averaged by volume: with bbar it takes the place of their own, as
+ * the volume change does (in the manner of Hughes, Int. J. Numer. Meth. Engng 15, 1980). */
+static double mean_stress_of(const struct mpm *mpm, const int32_t *order, int32_t count)
+{
+    const struct store *store = mpm->store;
+    double sum = 0, volume = 0;
+    for (int32_t k = 0; k < count; k++) {
+        const int32_t p = order[k];
+        double mean = (store->real[COLUMN_STRESS][0][p] + store->real[COLUMN_STRESS][1][p] + store->real[COLUMN_STRESS][2][p]) / 3;
+        sum += store->real[COLUMN_VOLUME][0][p] * (mean - store->real[COLUMN_VISCOUS_PRESSURE][0][p]);
+        volume += store->real[COLUMN_VOLUME][0][p];
+    }
+    return sum / volume;
+}
+
 /* Mass, momentum and force of one cell's particles, and the normals that contact needs. `sum` holds
- * them in this order. */
+ * them in this order. `special`: xfer apic or bbar. */
 THREADS_INLINE void scatter_cell(const struct mpm *mpm, const int32_t *order, int32_t count, const double cell_low[3],
-                                 face sum[10][FACES], bool momentum, bool force, bool external, bool normals)
+                                 face sum[10][FACES], bool momentum, bool force, bool external, bool normals, bool special)
 {
     const struct store *store = mpm->store;
     const double inverse = 1 / mpm->cells->frame.size;
+    const double cell_mean = special && force ? mean_stress_of(mpm, order, count) : 0;
     for (int32_t k = 0; k < count; k++) {
         size_t p = (size_t)order[k];
         double x = (store->real[mpm->place][0][p] - cell_low[0]) * inverse;
@@ -73,9 +89,24 @@ THREADS_INLINE void scatter_cell(const struct mpm *mpm, const int32_t *order, in
             sum[3][LOWER] += n_lower * pz;
             sum[3][UPPER] += n_upper * pz;
         }
+        if (momentum && special && store->real[COLUMN_AFFINE][0]) {
+            const double size = mpm->cells->frame.size, mass = store->real[COLUMN_MASS][0][p] * size;
+            face way_x = low_x * -x + (1 - low_x) * (1 - x), way_y = low_y * -y + (1 - low_y) * (1 - y);
+            for (int a = 0; a < 3; a++) {
+                face flat_part = way_x * store->real[COLUMN_AFFINE][3 * a][p] + way_y * store->real[COLUMN_AFFINE][3 * a + 1][p];
+                double along_z = store->real[COLUMN_AFFINE][3 * a + 2][p];
+                sum[1 + a][LOWER] += n_lower * (mass * (flat_part - along_z * upper));
+                sum[1 + a][UPPER] += n_upper * (mass * (flat_part + along_z * lower));
+            }
+        }
         if (force) {
             double t[3][3];
             mpm_force_stress(mpm, p, t);
+            if (special && mpm->scene->averages_volume) {
+                double change = cell_mean * -store->real[COLUMN_VOLUME][0][p] * inverse - (t[0][0] + t[1][1] + t[2][2]) / 3;
+                for (int a = 0; a < 3; a++)
+                    t[a][a] += change;
+            }
             face slope_x = sign_x * weight_y, slope_y = sign_y * weight_x;
             face along_x = slope_x * t[0][0] + slope_y * t[0][1], across_x = flat * t[0][2];
             face along_y = slope_x * t[1][0] + slope_y * t[1][1], across_y = flat * t[1][2];
@@ -127,7 +158,8 @@ THREADS_INLINE void prefetch_particles(const struct mpm *mpm, int32_t p, bool mo
     }
 }
 
-THREADS_INLINE void scatter_block(struct mpm *mpm, int32_t b, bool momentum, bool force, bool external, bool normals)
+THREADS_INLINE void scatter_block(struct mpm *mpm, int32_t b, bool momentum, bool force, bool external, bool normals,
+                                  bool special)
 {
     const struct cell_block *block = &mpm->cells->blocks[b];
     double(*patch)[PATCH_NODES] = patch_of(mpm, b);
@@ -146,7 +178,7 @@ THREADS_INLINE void scatter_block(struct mpm *mpm, int32_t b, bool momentum, boo
             cell_low[a] = chunk_cell_low(mpm, &chunk, c, a);
         prefetch_particles(mpm, mpm->cells->order[block->first + from], momentum, force);
         scatter_cell(mpm, mpm->cells->order + block->first + from, count, cell_low, sum, momentum, force, external,
-                     normals);
+                     normals, special);
         add_corners(patch, grid_patch_corner(c, PATCH_EDGE, 0), momentum ? sum : sum + 4, fields);
     }
 }
@@ -154,36 +186,47 @@ THREADS_INLINE void scatter_block(struct mpm *mpm, int32_t b, bool momentum, boo
 THREADS_VECTORISED
 static void scatter_all(struct mpm *mpm, int32_t b)
 {
-    scatter_block(mpm, b, true, true, false, false);
+    scatter_block(mpm, b, true, true, false, false, false);
 }
 
 THREADS_VECTORISED
 static void scatter_all_external(struct mpm *mpm, int32_t b)
 {
-    scatter_block(mpm, b, true, true, true, false);
+    scatter_block(mpm, b, true, true, true, false, false);
 }
 
 THREADS_VECTORISED
 static void scatter_momentum(struct mpm *mpm, int32_t b)
 {
-    scatter_block(mpm, b, true, false, false, false);
+    scatter_block(mpm, b, true, false, false, false, false);
 }
 
 THREADS_VECTORISED
 static void scatter_force(struct mpm *mpm, int32_t b)
 {
-    scatter_block(mpm, b, false, true, true, false);
+    scatter_block(mpm, b, false, true, true, false, false);
 }
 
 THREADS_VECTORISED
 static void scatter_contact(struct mpm *mpm, int32_t b, bool momentum)
 {
-    scatter_block(mpm, b, momentum, true, true, true);
+    scatter_block(mpm, b, momentum, true, true, true, true);
+}
+
+THREADS_VECTORISED
+static void scatter_special(struct mpm *mpm, int32_t b, bool momentum, bool force)
+{
+    scatter_block(mpm, b, momentum, force, true, false, true);
 }
 
 static void scatter(struct mpm *mpm, int32_t b, bool momentum, bool force)
 {
-    if (!force)
+    bool is_special = mpm->scene->transfer == TRANSFER_AFFINE || mpm->scene->averages_volume;
+    if (is_special && !mpm->contact)
+        scatter_special(mpm, b, momentum, force);
+    else if (is_special && !force)
+        scatter_special(mpm, b, true, false);
+    else if (!force)
         scatter_momentum(mpm, b);
     else if (mpm->contact)
         scatter_contact(mpm, b, momentum);
@@ -304,11 +347,47 @@ THREADS_INLINE void scatter_new_momentum(const struct chunk *chunk, double *cons
     }
 }
 
+/* Velocity gradient of the chunk's particles into their column and the workspace (xfer apic; for linear
+ * shapes this is the affine part of Jiang et al., ACM Trans. Graph. 34, 2015). */
+THREADS_INLINE void gather_affine(const struct mpm *mpm, const struct chunk *chunk, double (*patch)[PATCH_NODES])
+{
+    struct workspace *w = chunk->workspace;
+    gather_gradient(chunk, patch, 1 / mpm->cells->frame.size);
+    for (int32_t j = 0; j < chunk->count; j++) {
+        double g[3][3];
+        chunk_get_gradient(w, j, g);
+        for (int f = 0; f < 9; f++) {
+            w->affine[f][j] = g[f / 3][f % 3];
+            mpm->store->real[COLUMN_AFFINE][f][chunk->order[j]] = g[f / 3][f % 3];
+        }
+    }
+}
+
+/* As scatter_new_momentum, each node with the velocity that the particle's gradient has there. */
+THREADS_INLINE void scatter_affine_momentum(const struct mpm *mpm, const struct chunk *chunk, double *const velocity[3],
+                                            const double *mass, double (*patch)[PATCH_NODES])
+{
+    const struct workspace *w = chunk->workspace;
+    for (struct cell_walk walk = {0}; walk_next(chunk, &walk);)
+        for (int32_t j = walk.from; j < walk.to; j++)
+            for (int i = 0; i < 8; i++) {
+                double weight = mass[j], way[3];
+                for (int a = 0; a < 3; a++) {
+                    way[a] = ((i >> a & 1) - w->local[a][j]) * mpm->cells->frame.size;
+                    weight *= i >> a & 1 ? w->local[a][j] : 1 - w->local[a][j];
+                }
+                int node = grid_patch_corner(walk.cell, PATCH_EDGE, 0) + corner_offset[i >> 2][i & 3];
+                for (int a = 0; a < 3; a++)
+                    patch[a][node] += weight * (velocity[a][j] + w->affine[3 * a][j] * way[0]
+                                                + w->affine[3 * a + 1][j] * way[1] + w->affine[3 * a + 2][j] * way[2]);
+            }
+}
+
 /* Node values that the passes read. */
 enum { PATCH_VELOCITY = 0, PATCH_ACCELERATION = 3, PATCH_STRAINING = 3 };
 
-THREADS_INLINE void velocity_chunk(struct mpm *mpm, struct chunk *chunk, bool moves,
-                                                                 bool remaps, bool external)
+THREADS_INLINE void velocity_chunk(struct mpm *mpm, struct chunk *chunk, bool moves, bool remaps, bool external,
+                                   bool blends)
 {
     struct store *store = mpm->store;
     struct workspace *w = chunk->workspace;
@@ -323,9 +402,17 @@ THREADS_INLINE void velocity_chunk(struct mpm *mpm, struct chunk *chunk, bool mo
         gather_values(chunk, values_of(w, PATCH_VELOCITY));
         motion_work(mpm, chunk);
     }
+    if (blends) {
+        gather_values(chunk, values_of(w, PATCH_VELOCITY));
+        motion_blend(mpm, chunk, velocity);
+    }
     gather_values(chunk, values_of(w, PATCH_ACCELERATION));
     motion_accelerate(mpm, chunk, velocity, mass);
-    if (remaps)
+    if (blends && mpm->scene->transfer == TRANSFER_AFFINE)
+        gather_affine(mpm, chunk, values_of(w, PATCH_VELOCITY));
+    if (remaps && blends && mpm->scene->transfer == TRANSFER_AFFINE)
+        scatter_affine_momentum(mpm, chunk, velocity, mass, patch_of(mpm, chunk->block_index));
+    else if (remaps)
         scatter_new_momentum(chunk, velocity, mass, patch_of(mpm, chunk->block_index));
     if (moves) {
         gather_values(chunk, values_of(w, PATCH_VELOCITY));
@@ -333,8 +420,7 @@ THREADS_INLINE void velocity_chunk(struct mpm *mpm, struct chunk *chunk, bool mo
     }
 }
 
-THREADS_INLINE void velocity_block(struct mpm *mpm, int32_t b, bool moves, bool remaps,
-                                                                 bool external)
+THREADS_INLINE void velocity_block(struct mpm *mpm, int32_t b, bool moves, bool remaps, bool external, bool blends)
 {
     struct workspace *w = &mpm->workspaces[threads_self()];
     struct chunk chunk = {.block = &mpm->cells->blocks[b], .block_index = b, .workspace = w};
@@ -342,36 +428,44 @@ THREADS_INLINE void velocity_block(struct mpm *mpm, int32_t b, bool moves, bool 
     if (remaps)
         memset(patch_of(mpm, b), 0, 3 * PATCH_NODES * sizeof(double));
     while (chunk_next(mpm, &chunk))
-        velocity_chunk(mpm, &chunk, moves, remaps, external);
+        velocity_chunk(mpm, &chunk, moves, remaps, external, blends);
 }
 
 THREADS_VECTORISED
 static void velocity_usf(struct mpm *mpm, int32_t b)
 {
-    velocity_block(mpm, b, true, false, true);
+    velocity_block(mpm, b, true, false, true, false);
 }
 
 THREADS_VECTORISED
 static void velocity_usl(struct mpm *mpm, int32_t b)
 {
-    velocity_block(mpm, b, false, false, true);
+    velocity_block(mpm, b, false, false, true, false);
 }
 
 THREADS_VECTORISED
 static void velocity_musl(struct mpm *mpm, int32_t b)
 {
-    velocity_block(mpm, b, false, true, false);
+    velocity_block(mpm, b, false, true, false, false);
 }
 
 THREADS_VECTORISED
 static void velocity_musl_external(struct mpm *mpm, int32_t b)
 {
-    velocity_block(mpm, b, false, true, true);
+    velocity_block(mpm, b, false, true, true, false);
+}
+
+THREADS_VECTORISED
+static void velocity_blend(struct mpm *mpm, int32_t b)
+{
+    velocity_block(mpm, b, mpm->scene->scheme == SCHEME_USF, mpm->scene->scheme == SCHEME_MUSL, true, true);
 }
 
 static void gather_velocity(struct mpm *mpm, int32_t b)
 {
-    if (mpm->scene->scheme == SCHEME_USF)
+    if (mpm->scene->transfer != TRANSFER_FLIP)
+        velocity_blend(mpm, b);
+    else if (mpm->scene->scheme == SCHEME_USF)
         velocity_usf(mpm, b);
     else if (mpm->scene->scheme == SCHEME_USL)
         velocity_usl(mpm, b);
@@ -383,6 +477,43 @@ static void gather_velocity(struct mpm *mpm, int32_t b)
 
 /* --- strain and stress (thesis steps 3, 8 and 9) --- */
 
+/* With bbar: the volume strain increments of a block's particles, averaged over each cell by volume,
+ * into workspace.cell_mean. */
+THREADS_INLINE void average_volume_change(const struct mpm *mpm, struct chunk chunk, double (*patch)[PATCH_NODES])
+{
+    struct workspace *w = chunk.workspace;
+    double volume[BLOCK_CELLS] = {0};
+    memset(w->cell_mean, 0, sizeof w->cell_mean);
+    while (chunk_next(mpm, &chunk)) {
+        double *position[3];
+        for (int a = 0; a < 3; a++)
+            position[a] = chunk_read(&chunk, mpm->store->real[mpm->place][a], w->copy[a]);
+        find_local(mpm, &chunk, position);
+        gather_gradient(&chunk, patch, mpm->time_step / mpm->cells->frame.size);
+        for (struct cell_walk walk = {0}; walk_next(&chunk, &walk);)
+            for (int32_t j = walk.from; j < walk.to; j++) {
+                double own = mpm->store->real[COLUMN_VOLUME][0][chunk.order[j]];
+                w->cell_mean[walk.cell] += own * w->trace[j];
+                volume[walk.cell] += own;
+            }
+    }
+    for (int c = 0; c < BLOCK_CELLS; c++)
+        w->cell_mean[c] = volume[c] > 0 ? w->cell_mean[c] / volume[c] : 0;
+}
+
+/* Gives the particles of a chunk the averaged volume change. */
+THREADS_INLINE void use_average(const struct chunk *chunk)
+{
+    struct workspace *w = chunk->workspace;
+    for (struct cell_walk walk = {0}; walk_next(chunk, &walk);)
+        for (int32_t j = walk.from; j < walk.to; j++) {
+            double change = (w->cell_mean[walk.cell] - w->trace[j]) / 3;
+            for (int a = 0; a < 3; a++)
+                w->strain[a][j] += change;
+            w->trace[j] = w->cell_mean[walk.cell];
+        }
+}
+
 THREADS_INLINE void strain_block(struct mpm *mpm, int32_t b, bool moves)
 {
     struct workspace *w = &mpm->workspaces[threads_self()];
@@ -390,12 +521,16 @@ THREADS_INLINE void strain_block(struct mpm *mpm, int32_t b, bool moves)
     grid_read_patch(mpm->grid, b, mpm->straining_field, 3, values_of(w, PATCH_STRAINING)[0]);
     if (moves)
         grid_read_patch(mpm->grid, b, NODE_MOMENTUM, 3, values_of(w, PATCH_VELOCITY)[0]);
+    if (mpm->scene->averages_volume)
+        average_volume_change(mpm, chunk, values_of(w, PATCH_STRAINING));
     while (chunk_next(mpm, &chunk)) {
         double *position[3];
         for (int a = 0; a < 3; a++)
             position[a] = chunk_read(&chunk, mpm->store->real[mpm->place][a], w->copy[a]);
         find_local(mpm, &chunk, position);
         gather_gradient(&chunk, values_of(w, PATCH_STRAINING), mpm->time_step / mpm->cells->frame.size);
+        if (mpm->scene->averages_volume)
+            use_average(&chunk);
         stress_update(mpm, &chunk);
         if (moves) {
             gather_values(&chunk, values_of(w, PATCH_VELOCITY));

@@ -54,10 +54,21 @@ THREADS_INLINE void sum_motion(struct sums *sums, int32_t count, double *const v
     sums->fastest = fastest;
 }
 
+void motion_blend(struct mpm *mpm, const struct chunk *chunk, double *const velocity[3])
+{
+    const double share = mpm->scene->transfer == TRANSFER_AFFINE ? 0 : mpm->scene->flip_share;
+    const double step = mpm->time_step * mpm->momentum_factor;
+    for (int a = 0; a < 3; a++) /* the acceleration comes on top afterwards */
+        for (int32_t j = 0; j < chunk->count; j++)
+            velocity[a][j] = share * velocity[a][j] + (1 - share) * chunk->workspace->gathered[a][j];
+    chunk->workspace->acceleration_step = share * step;
+}
+
 THREADS_VECTORISED
 void motion_accelerate(struct mpm *mpm, const struct chunk *chunk, double *const velocity[3], const double *mass)
 {
-    const double step = mpm->time_step * mpm->momentum_factor;
+    const bool blends = mpm->scene->transfer != TRANSFER_FLIP;
+    const double step = blends ? chunk->workspace->acceleration_step : mpm->time_step * mpm->momentum_factor;
     for (int a = 0; a < 3; a++) {
         double *restrict v = velocity[a];
         const double *restrict acceleration = chunk->workspace->gathered[a];

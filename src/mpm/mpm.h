@@ -191,6 +191,10 @@ void stress_update(struct mpm *mpm, const struct chunk *chunk);
 /* Work of the external forces over the step's way, from the gathered velocities. */
 void motion_work(struct mpm *mpm, const struct chunk *chunk);
 
+/* With xfer pic, apic or blend: mixes the gathered grid velocities into the particles' old ones, so
+ * that motion_accelerate completes them. The grid's velocities hold the acceleration already. */
+void motion_blend(struct mpm *mpm, const struct chunk *chunk, double *const velocity[3]);
+
 /* New particle velocities from the gathered accelerations, and their sums. */
 void motion_accelerate(struct mpm *mpm, const struct chunk *chunk, double *const velocity[3], const double *mass);
 

@@ -34,6 +34,8 @@ static uint64_t wanted_columns(const struct scene *scene)
         wanted |= column_bit(COLUMN_DEFORMATION);
     if (scene->smooths_pressure && scene->writes_vtk)
         wanted |= column_bit(COLUMN_SMOOTHED_PRESSURE) | column_bit(COLUMN_START_POSITION);
+    if (scene->transfer == TRANSFER_AFFINE)
+        wanted |= column_bit(COLUMN_AFFINE);
     if (scene->writes_vtk)
         wanted |= column_bit(COLUMN_INITIAL_POSITION);
     if (scene->is_total)
@@ -285,6 +287,7 @@ struct mpm *mpm_open(struct scene *scene, struct timers *timers, struct diagnost
                                                  [INTERPOLATION_GIMP_OWN] = &shape_gimp_own, [INTERPOLATION_BIMP] = &shape_bimp,
                                                  [INTERPOLATION_STAGGERED] = &shape_staggered};
     mpm->shape = shapes[scene->interpolation];
+    mpm->load_factor = 1;
     mpm->is_total = scene->is_total;
     mpm->place = scene->is_total ? COLUMN_INITIAL_POSITION : COLUMN_POSITION;
     mpm->straining_field = scene->scheme == SCHEME_USL ? NODE_MOMENTUM : NODE_STRAINING;

@@ -259,6 +259,10 @@ THREADS_INLINE void velocity_block(struct mpm *mpm, int32_t b, axis_weights *wei
             gather_values(&chunk, velocities);
             motion_work(mpm, &chunk);
         }
+        if (mpm->scene->transfer != TRANSFER_FLIP) {
+            gather_values(&chunk, velocities);
+            motion_blend(mpm, &chunk, velocity);
+        }
         gather_values(&chunk, accelerations);
         motion_accelerate(mpm, &chunk, velocity, mass);
         for (int32_t j = 0; j < chunk.count && remaps; j++) {

@@ -413,6 +413,10 @@ static void gather_velocity(struct mpm *mpm, int32_t b)
             take(&chunk, velocities);
             motion_work(mpm, &chunk);
         }
+        if (mpm->scene->transfer != TRANSFER_FLIP) {
+            take(&chunk, velocities);
+            motion_blend(mpm, &chunk, velocity);
+        }
         take(&chunk, accelerations);
         motion_accelerate(mpm, &chunk, velocity, mass);
         for (int32_t j = 0; j < chunk.count && remaps; j++) {

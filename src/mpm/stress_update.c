@@ -147,23 +147,13 @@ static void change_volume(struct workspace *w, double *restrict volume, int32_t 
     }
 }
 
-/* The velocity gradient times the step of point j. */
-static void gradient_of(const struct workspace *w, int32_t j, double g[3][3])
-{
-    for (int a = 0; a < 3; a++)
-        g[a][a] = w->strain[a][j];
-    g[2][1] = 0.5 * w->strain[3][j] + w->spin[0][j], g[1][2] = 0.5 * w->strain[3][j] - w->spin[0][j];
-    g[0][2] = 0.5 * w->strain[4][j] + w->spin[1][j], g[2][0] = 0.5 * w->strain[4][j] - w->spin[1][j];
-    g[1][0] = 0.5 * w->strain[5][j] + w->spin[2][j], g[0][1] = 0.5 * w->strain[5][j] - w->spin[2][j];
-}
-
 /* Volume and deformation gradient by the velocity gradient times the step, G: F := (1 + G) F,
  * V := V det(1 + G) (spec 6.4). */
 static void change_deformation(struct workspace *w, const struct law_batch *batch)
 {
     for (int32_t j = 0; j < batch->count; j++) {
         double g[3][3], h[3][3];
-        gradient_of(w, j, g);
+        chunk_get_gradient(w, j, g);
         for (int a = 0; a < 9; a++)
             h[a / 3][a % 3] = batch->deformation[a][j];
         for (int a = 0; a < 9; a++) {
@@ -186,7 +176,7 @@ static void update_total(const struct mpm *mpm, const struct chunk *chunk, const
         const struct material *material = mpm->material_of_body[mpm->store->integer[COLUMN_BODY][chunk->order[j]]];
         const double shear = material->shear_modulus, lame = material->bulk_modulus - 2 * shear / 3;
         double g[3][3], f[3][3], inverse[3][3], work = 0, before = batch->volume[j];
-        gradient_of(chunk->workspace, j, g);
+        chunk_get_gradient(chunk->workspace, j, g);
         for (int a = 0; a < 9; a++)
             f[a / 3][a % 3] = (batch->deformation[a][j] += g[a / 3][a % 3]) + (a % 4 == 0);
         double ratio = tensor_determinant(f), pressure = lame * log(ratio) - shear;

@@ -211,7 +211,8 @@ void mpm_step(struct mpm *mpm)
     smoothing_finish(mpm);
     timers_enter(mpm->timers, PHASE_SUMS);
     sum_particles(mpm, blocks);
-    add_particles(mpm, frozen_from, mpm->cells->count, &mpm->sums);
+    if (mpm->scene->lost != LOST_DROP)
+        add_particles(mpm, frozen_from, mpm->cells->count, &mpm->sums);
     balance_energy(mpm, &before, work_before);
     discard_grid(mpm);
     timers_enter(mpm->timers, PHASE_SUMS);

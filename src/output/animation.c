@@ -32,19 +32,33 @@ static void write_row(struct table *table, const struct scene *scene, const stru
     fputc('\n', table->stream);
 }
 
+/* The zone of the particles with ids first ... last - 1. */
+static void write_zone(struct table *table, const struct scene *scene, const struct result_source *source,
+                       const unsigned char *is_shown, double time, long first, long last, long body)
+{
+    size_t rows = 0;
+    for (long id = first; id < last; id++)
+        rows += is_shown[id] != 0;
+    fprintf(table->stream, scene->bare_headers ? "ZONE T=\"time %10.3E" : "ZONE T=\"time %.3E", time);
+    if (body > 0)
+        fprintf(table->stream, " body %ld", body);
+    if (!scene->bare_headers)
+        fprintf(table->stream, "\" I=%zu, F=POINT, STRANDID=%ld, SOLUTIONTIME=%.9E\n", rows, body > 0 ? body : 1, time);
+    else
+        fprintf(table->stream, "\"\n");
+    for (long id = first; id < last; id++)
+        if (is_shown[id])
+            write_row(table, scene, source, (size_t)source->store->index_of_id[id]);
+}
+
 bool animation_zone(struct table *table, const struct scene *scene, const struct result_source *source,
                     const unsigned char *is_shown, double time)
 {
-    const struct store *store = source->store;
-    size_t rows = 0;
-    for (size_t id = 0; id < store->count; id++)
-        rows += is_shown[id] != 0;
-    if (scene->bare_headers)
-        fprintf(table->stream, "ZONE T=\"time %10.3E\"\n", time);
-    else
-        fprintf(table->stream, "ZONE T=\"time %.3E\" I=%zu, F=POINT, STRANDID=1, SOLUTIONTIME=%.9E\n", time, rows, time);
-    for (size_t id = 0; id < store->count; id++)
-        if (is_shown[id])
-            write_row(table, scene, source, (size_t)store->index_of_id[id]);
+    for (size_t b = 0; b < scene->n_bodies && scene->zones_by_body; b++) {
+        const struct scene_body *body = &scene->bodies[b];
+        write_zone(table, scene, source, is_shown, time, body->first, body->first + body->count, (long)b + 1);
+    }
+    if (!scene->zones_by_body)
+        write_zone(table, scene, source, is_shown, time, 0, (long)source->store->count, 0);
     return table_flush(table);
 }

@@ -28,6 +28,7 @@ static const struct column_row rows[COLUMN_COUNT] = {
     [COLUMN_FIRST_STRESS] = {"first_stress", 9, false, 0, "stress", "first Piola-Kirchhoff stress, by rows"},
     [COLUMN_SMOOTHED_PRESSURE] = {"smoothed_pressure", 1, false, 0, "stress", "pressure averaged over nodes"},
     [COLUMN_START_POSITION] = {"start_position", 3, false, 0, "length", "position at the start of the step"},
+    [COLUMN_AFFINE] = {"affine", 9, false, 0, "1/time", "velocity gradient that goes along with the velocity, by rows"},
     [COLUMN_LOAD] = {"load", 3, false, 0, "force", "force from the load block"},
     [COLUMN_INITIAL_POSITION] = {"initial_position", 3, false, 0, "length", "position at the start"},
     [COLUMN_ID] = {"id", 1, true, 0, NULL, "number of the particle"},

@@ -135,6 +135,7 @@ static const struct result rows[] = {
     {.name = "mat", .doc = "material number", .is_integer = true, .value = material},
     {.name = "pres", .unit = "stress", .doc = "pressure, minus the mean stress", .value = pressure},
     {.name = "volu", .unit = "length^3", .doc = "present volume", .value = volume},
+    {.name = "vol", .unit = "length^3", .doc = "the same as volu", .value = volume},
     {.name = "engk", .unit = "energy", .doc = "kinetic energy; in a curve of all particles",
      .is_total_in_curves = true, .value = kinetic_energy},
     {.name = "engi", .unit = "energy", .doc = "internal energy; in a curve of all particles",

@@ -119,7 +119,7 @@ check "SIGTERM ends with status 130" sh -c 'test "$(cat status)" = 130'
 
 # extreme scenes: right, or stopped with step, time and particle
 deck 100 "dtsc 2.5" "velo" "node 1 0.1 0.05 0" "endv" >unstable.mpm
-expect "dtsc 2.5" 3 "unstable at step [0-9]*, time [0-9.E+-]*: " "$mpm3d" unstable.mpm
+expect "dtsc 2.5" 3 "is stopped at step [0-9]*, time [0-9.E+-]*: " "$mpm3d" unstable.mpm
 expect "dtsc 2.5 names the particle" 3 "particle [0-9]* of body 1 at" "$mpm3d" unstable.mpm
 check "the last good output is kept" "$build/tecstat" unstable_anim.dat max velx
 deck 200 "velo" "body 1 0.5 0.3 0.2" "endv" >leaves.mpm
@@ -143,7 +143,7 @@ points "4 1.5 1.5" "1 1 1" >upper.mpm
 expect "a point on the upper face of the grid" 0 "no particle lost" "$mpm3d" upper.mpm
 check "it is held by the face" sh -c 'test "$("$1/tecstat" upper_anim.dat first X)" = 4' - "$build"
 points "9 9 9" "1.5 1.5 1.5" >outside.mpm
-expect "a point outside the grid" 0 "1 particles left the grid and are frozen (first ids: 1)" "$mpm3d" outside.mpm
+expect "a point outside the grid" 0 "1 particles left the grid and are frozen (first ids: 1; the first at 9 9 9)" "$mpm3d" outside.mpm
 check "it is not in later output" sh -c 'test "$("$1/tecstat" outside_anim.dat count)" = 1' - "$build"
 points "9 9 9" >nothing.mpm
 expect "no point in the grid" 0 "1 particles left the grid" "$mpm3d" nothing.mpm
