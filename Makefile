@@ -76,6 +76,10 @@ study: $(build)/tests/test_wave $(build)/tests/test_conservation
 	$(build)/tests/test_wave
 	$(build)/tests/test_conservation
 
+# MANUAL.md, from the program's own tables.
+manual: $(build)/mpm3d
+	$(build)/mpm3d --manual >MANUAL.md
+
 # The suite under address and undefined sanitizers with gcc and clang, warnings as errors, and the
 # module prefixes of all functions that are visible outside their file.
 check:
@@ -104,11 +108,12 @@ help:
 	@echo "make check    the tests under sanitizers, with gcc and clang, warnings as errors"
 	@echo "make bench    speed: cost by phase, threads, size; against this machine's memory bandwidth"
 	@echo "make study    accuracy: convergence and conservation by scheme"
+	@echo "make manual   writes MANUAL.md from the program's tables"
 	@echo "make fuzz     fuzzes the deck reader (clang)"
 	@echo "make install  PREFIX=$(PREFIX), DESTDIR; make uninstall; make clean"
 	@echo "options: CC, CFLAGS, NATIVE=1 (this machine's instructions), SAN=1 (sanitizers)"
 
-.PHONY: all run test check bench study fuzz install uninstall clean help
+.PHONY: all run test check bench study manual fuzz install uninstall clean help
 .DEFAULT_GOAL := all
 
 -include $(objects:.o=.d)

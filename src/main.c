@@ -40,6 +40,7 @@ static void print_usage(FILE *stream)
           "  --threads N      use N threads (default: all processors)\n"
           "  --quiet          no progress line and no summary\n"
           "  --help [WORD]    this text and all words, or one word, law, generator or result\n"
+          "  --manual         the manual of all words, as Markdown\n"
           "  --version        version\n"
           "Exit status: 0 finished, 1 wrong usage, 2 the deck is wrong, 3 the run went unstable,\n"
           "4 a file could not be read or written, 130 interrupted.\n",
@@ -100,6 +101,10 @@ int main(int count, char **arguments)
             return print_help(value);
         if (strcmp(word, "--version") == 0)
             return printf("mpm3d %s\n", VERSION) < 0 ? STATUS_FILE : STATUS_FINISHED;
+        if (strcmp(word, "--manual") == 0) {
+            help_manual(stdout);
+            return fflush(stdout) == 0 ? STATUS_FINISHED : STATUS_FILE;
+        }
         if (strcmp(word, "--check") == 0)
             options.only_check = true;
         else if (strcmp(word, "--quiet") == 0 || strcmp(word, "-q") == 0)

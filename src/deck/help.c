@@ -150,3 +150,66 @@ bool help_word(const char *word, FILE *stream)
     fprintf(stream, nearest ? "no word '%s'; did you mean '%s'?\n" : "no word '%s'; see mpm3d --help\n", word, nearest);
     return false;
 }
+
+/* --- the manual --- */
+
+static void manual_arguments(FILE *stream, const struct argument *arguments)
+{
+    for (int i = 0; i < argument_count(arguments); i++) {
+        const char *limit = argument_limit_text(arguments[i].limit);
+        fprintf(stream, "%s`%s`", i ? "; " : "", arguments[i].name);
+        if (arguments[i].unit)
+            fprintf(stream, " (%s)", arguments[i].unit);
+        if (*limit)
+            fprintf(stream, " %s", limit);
+    }
+}
+
+static void manual_head(FILE *stream, const char *title)
+{
+    fprintf(stream, "\n### %s\n\n| word | what | arguments |\n|---|---|---|\n", title);
+}
+
+static void manual_row(FILE *stream, const char *name, const char *doc, const struct argument *arguments, const char *later)
+{
+    fprintf(stream, "| `%s` | %s%s | ", name, doc, later ? " (not in this version)" : "");
+    manual_arguments(stream, arguments);
+    fprintf(stream, " |\n");
+}
+
+static void manual_keywords(FILE *stream, const char *title, const struct keyword *table)
+{
+    manual_head(stream, title);
+    for (const struct keyword *row = table; row->name; row++)
+        manual_row(stream, row->name, row->doc, row->arguments, row->later);
+}
+
+void help_manual(FILE *stream)
+{
+    int count;
+    fprintf(stream, "# The words of a deck\n\nWritten by `make manual` from the program's own tables; `mpm3d --help WORD` "
+                    "shows the same.\nFour letters count, in any case; numbers may be written 1, .5, +1, 1.0d-3; words are "
+                    "separated by blanks or one comma; `!` starts a comment.\n");
+    for (int c = 0; c < CATEGORY_COUNT; c++)
+        manual_keywords(stream, keyword_category_title((enum category)c), keyword_table((enum category)c));
+    manual_keywords(stream, "Kinds of load", load_keywords);
+    manual_keywords(stream, "Kinds of velo", velocity_keywords);
+    manual_head(stream, "Laws of mate");
+    for (const struct law *const *law = law_rows(); *law; law++)
+        manual_row(stream, (*law)->name, (*law)->doc, (*law)->parameters, (*law)->later);
+    manual_head(stream, "Types of seos");
+    for (const struct eos *eos = eos_rows(); eos->type; eos++) {
+        fprintf(stream, "| `%d` | %s: %s | ", eos->type, eos->name, eos->doc);
+        manual_arguments(stream, eos->arguments);
+        fprintf(stream, " |\n");
+    }
+    manual_head(stream, "Generators of part");
+    const struct generator_row *generators = generator_rows(&count);
+    for (int i = 0; i < count; i++)
+        manual_row(stream, generators[i].name, generators[i].doc, generators[i].arguments, NULL);
+    fprintf(stream, "\n### Results of outr, curv, curx\n\n| word | what | unit |\n|---|---|---|\n");
+    const struct result *results = result_rows(&count);
+    for (int i = 0; i < count; i++)
+        fprintf(stream, "| `%s` | %s%s | %s |\n", results[i].name, results[i].doc,
+                results[i].later ? " (not in this version)" : "", results[i].unit ? results[i].unit : "");
+}

@@ -13,4 +13,8 @@ void help_words(FILE *stream);
  * when the word is unknown, after naming the nearest one. */
 bool help_word(const char *word, FILE *stream);
 
+/* The manual: all words with their arguments, laws, equations of state, generators, loads,
+ * velocities and results, as Markdown. */
+void help_manual(FILE *stream);
+
 #endif
