@@ -97,13 +97,8 @@ static void write_lost(struct run *run)
 /* Opens the table "job" + ending in the folder of the run. */
 static bool open_table(struct run *run, struct table *table, const char *ending)
 {
-    size_t size = strlen(run->scene->job) + strlen(ending) + 1;
-    char *name = memory_array(size, 1, "a file name");
-    snprintf(name, size, "%s%s", run->scene->job, ending);
-    bool good = table_open(table, run->options.folder, name,
-                           (struct table_style){(int)run->scene->digits, run->scene->bare_headers});
-    memory_free(name);
-    return good;
+    return table_open_job(table, run->options.folder, run->scene->job, ending,
+                          (struct table_style){(int)run->scene->digits, run->scene->bare_headers});
 }
 
 static enum status open_log(struct run *run)

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "output/history.h"
-#include "base/memory.h"
 
 #include <string.h>
 
@@ -9,12 +8,9 @@ static bool open_named(struct table *table, const struct scene *scene, const cha
                        const char *bare)
 {
     struct table_style style = {(int)scene->digits, scene->bare_headers};
-    size_t size = strlen(scene->job) + strlen(ending) + 1;
-    char *name = memory_array(size, 1, "a file name");
-    snprintf(name, size, "%s%s", scene->job, ending);
-    bool good = table_open(table, folder, scene->bare_names && bare ? bare : name, style);
-    memory_free(name);
-    return good;
+    if (scene->bare_names && bare)
+        return table_open(table, folder, bare, style);
+    return table_open_job(table, folder, scene->job, ending, style);
 }
 
 static void write_curve_header(struct history *history, const struct scene *scene)

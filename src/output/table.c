@@ -19,6 +19,16 @@ bool table_open(struct table *table, const char *folder, const char *name, struc
     return table->stream != NULL;
 }
 
+bool table_open_job(struct table *table, const char *folder, const char *job, const char *ending, struct table_style style)
+{
+    size_t size = strlen(job) + strlen(ending) + 1;
+    char *name = memory_array(size, 1, "a file name");
+    snprintf(name, size, "%s%s", job, ending);
+    bool good = table_open(table, folder, name, style);
+    memory_free(name);
+    return good;
+}
+
 /* Fortran's E format has the point before the first digit: shifts C's by one decade. */
 static void write_fortran(FILE *stream, double value, int digits)
 {

@@ -21,6 +21,9 @@ struct table {
 /* Creates `folder`/`name`. Returns false, after a message, when it can't be created. */
 bool table_open(struct table *table, const char *folder, const char *name, struct table_style style);
 
+/* The same for the file "job" + ending. */
+bool table_open_job(struct table *table, const char *folder, const char *job, const char *ending, struct table_style style);
+
 /* Writes one number, right-adjusted, with a blank before it. */
 void table_real(struct table *table, double value);
 

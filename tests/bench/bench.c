@@ -76,24 +76,36 @@ struct measure {
     double bytes; /* per particle, in memory */
 };
 
-/* A moving elastic block of n x n x m points, 8 a cell. */
-static char *block_deck(int n, int m)
+/* The laws most used, as their lines in a deck. */
+static const struct bench_law {
+    const char *name, *lines;
+} laws[] = {
+    {"elas", "1 elas 7.85e-3 210.0e3 0.30\n"},
+    {"pla2", "1 pla2 7.85e-3 210.0e3 0.30 1.0 1000\n"},
+    {"john", "1 john 7.85e-3 210.0e3 0.30 1.0 2.0 0.3 0.02 1.0 293 1800 450 1e-3\n"},
+    {"sjc", "1 sjc 7.85e-3 210.0e3 0.30 1.0 2.0 0.3 0.02 1e-3\nseos 1 2 4600 1.5 2.0 0\n"},
+    {"null", "1 null 7.85e-3 210.0e3 1e-3\nseos 1 4 5000\n"},
+    {"neoh", "1 neoh 7.85e-3 210.0e3 0.30\n"},
+};
+
+/* A moving block of n x n x m points, 8 a cell, that shears and stretches a little. */
+static char *block_deck(int n, int m, const char *law, const char *words)
 {
     char *deck = memory_array(4096, 1, "deck");
     int cells = (n > m ? n : m) / 2 + 12;
     snprintf(deck, 4096,
              "mpm3d block\nnbco 1\nnbbo 1\nnbmp %d\nnmat 1\ngrid 0 %d 0 %d 0 %d\ndcell 1.0\ndtscale 0.5\nendt 1\n"
-             "jaum on\nmusl on\nmate\n1 elas 7.85e-3 210.0e3 0.30\npart bloc 1\n1 7.85e-3 0.5 5 5 5 %d %d %d\n"
-             "velo\nbody 1 10 20 30\nendv\nendi\n",
-             n * n * m, cells, cells, cells, n, n, m);
+             "jaum on\nmusl on\n%s\nmate\n%spart bloc 1\n1 7.85e-3 0.5 5 5 5 %d %d %d\n"
+             "velo\nbody 1 10 20 30\nnode 1 100 0 0\nendv\nendi\n",
+             n * n * m, cells, cells, cells, words, law, n, n, m);
     return deck;
 }
 
-static struct measure run_block(int n, int m, int threads, int steps)
+static struct measure run_block(int n, int m, int threads, int steps, const char *law, const char *words)
 {
     struct diagnostics *diagnostics = diagnostics_open();
     struct deck_text *text = text_open(diagnostics);
-    char *deck = block_deck(n, m);
+    char *deck = block_deck(n, m, law, words);
     text_include_memory(text, "bench", deck, strlen(deck));
     struct scene *scene = reader_read(text, diagnostics);
     struct timers timers;
@@ -129,9 +141,9 @@ static struct measure run_block(int n, int m, int threads, int steps)
 /* The fastest of a few runs: others on the machine only ever slow one down. */
 static struct measure best_of(int runs, int n, int m, int threads, int steps)
 {
-    struct measure best = run_block(n, m, threads, steps);
+    struct measure best = run_block(n, m, threads, steps, laws[0].lines, "");
     for (int i = 1; i < runs; i++) {
-        struct measure next = run_block(n, m, threads, steps);
+        struct measure next = run_block(n, m, threads, steps, laws[0].lines, "");
         if (next.seconds < best.seconds)
             best = next;
     }
@@ -175,12 +187,33 @@ static void print_growth(int all, bool quick)
     }
 }
 
+/* Laws by shape functions; the fastest of three runs each. */
+static void print_laws(int all, int steps)
+{
+    static const char *const shapes[] = {"", "gimp", "bimp"};
+    printf("\nns per particle-step, 64000 points, 1 thread and %d threads\nlaw         linear             gimp             bimp\n", all);
+    for (size_t l = 0; l < sizeof laws / sizeof laws[0]; l++) {
+        printf("%-5s", laws[l].name);
+        for (int s = 0; s < 3; s++) {
+            double best[2] = {1e9, 1e9};
+            for (int run = 0; run < 6; run++) {
+                double seconds = run_block(40, 40, run % 2 ? all : 1, steps, laws[l].lines, shapes[s]).seconds;
+                best[run % 2] = seconds < best[run % 2] ? seconds : best[run % 2];
+            }
+            printf("  %7.1f %7.1f", 1e9 * best[0], 1e9 * best[1]);
+            fflush(stdout);
+        }
+        printf("\n");
+    }
+}
+
 int main(int count, char **arguments)
 {
     bool quick = count > 1 && strcmp(arguments[1], "quick") == 0;
     threads_wait_briefly(arguments);
     int all = threads_available();
     print_threads(all, quick ? 20 : 60);
+    print_laws(all, quick ? 10 : 40);
     print_growth(all, quick);
     return 0;
 }
