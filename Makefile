@@ -30,8 +30,8 @@ tools   := $(build)/tecdiff $(build)/tecstat
 # The program at the top is that of the last plain build.
 all: $(build)/mpm3d $(tools) $(if $(filter 1,$(SAN)),,mpm3d)
 
-mpm3d: $(build)/mpm3d
-	cp -f $< $@
+mpm3d: $(build)/mpm3d always
+	@cmp -s $< $@ || cp -f $< $@
 
 $(build)/mpm3d: $(objects)
 	@echo "  CC  $@"
@@ -114,6 +114,7 @@ help:
 	@echo "options: CC, CFLAGS, NATIVE=1 (this machine's instructions), SAN=1 (sanitizers)"
 
 .PHONY: all run test check bench study manual fuzz install uninstall clean help
+.PHONY: always
 .DEFAULT_GOAL := all
 
 -include $(objects:.o=.d)
