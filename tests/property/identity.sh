@@ -10,8 +10,8 @@ cd "$folder" || exit 2
 failed=0
 for scheme in usf usl musl; do
     # usl is unstable at the nodes of small mass that points leave behind: fewer steps
-    end="s/^endt.*/endt 0.12 outt 0.06/"
-    [ $scheme = usl ] && end="s/^endt.*/endt 0.004 outt 0.002/"
+    end="s/^endt.*/endt 0.03 outt 0.015/"
+    [ $scheme = usl ] && end="s/^endt.*/endt 0.003 outt 0.0015/"
     sed "s/^musl on/$scheme on/; $end" "$here/identity.mpm" >job.mpm
     sed 's/^tecp/sort off\ntecp/' job.mpm >unsorted.mpm
     "$build/mpm3d" --quiet --threads 1 -o one job.mpm || { echo "FAIL $scheme: exit status $?"; failed=1; continue; }
