@@ -156,10 +156,10 @@ void faces_scatter(struct mpm *mpm, int force_field)
             locate(mpm, face, point);
             if (point->block < 0)
                 continue;
-            const int edge = mpm->grid->layout.edge;
+            const int edge = mpm->grid->layout.edge, row = mpm->grid->layout.row;
             for (int corner = 0; corner < 8; corner++) {
-                int node = grid_patch_corner(point->cell, edge, mpm->grid->layout.origin) + (corner & 1)
-                         + edge * ((corner >> 1 & 1) + edge * (corner >> 2));
+                int node = grid_patch_corner(point->cell, row, edge, mpm->grid->layout.origin) + (corner & 1)
+                         + row * ((corner >> 1 & 1) + edge * (corner >> 2));
                 double weight = mpm->load_factor * corner_weight(face, point, corner) * point->area;
                 for (int a = 0; a < 3; a++)
                     grid_patch(mpm->grid, point->block, force_field + a)[node] += weight * face->traction[a];

@@ -14,22 +14,29 @@ struct span {
     int offset, node, count, place;
 };
 
-/* The rows of a patch: all triples of spans, their nodes along x side by side. */
+/* The rows of a patch: all triples of spans, their nodes along x side by side; long ones first. */
 static struct patch_layout lay_out(int low, int high)
 {
     const struct span all[] = {{-1, BLOCK_EDGE - 1, 1, 0}, {0, 0, BLOCK_EDGE, low}, {1, 0, high, low + BLOCK_EDGE}};
     const struct span *spans = low > 0 ? all : all + 1;
     const int n = low > 0 ? 3 : 2, edge = low + BLOCK_EDGE + high;
-    struct patch_layout layout = {edge, (edge * edge * edge + 8) / 8 * 8, low, 0, {{0}}};
-    for (int triple = 0; triple < n * n * n; triple++) {
-        const struct span *x = &spans[triple % n], *y = &spans[triple / n % n], *z = &spans[triple / (n * n)];
-        for (int k = 0; k < z->count; k++)
-            for (int j = 0; j < y->count; j++)
+    const int row = low + high > 2 ? 8 : edge;
+    struct patch_layout layout = {edge, row, (row * edge * edge + 7) / 8 * 8, low, 0, 0, {{0}}};
+    for (int pass = 0; pass < 2; pass++) {
+        for (int triple = 0; triple < n * n * n; triple++) {
+            const struct span *x = &spans[triple % n], *y = &spans[triple / n % n], *z = &spans[triple / (n * n)];
+            bool is_long = x->count == BLOCK_EDGE;
+            for (int jk = 0; jk < y->count * z->count && is_long == (pass == 0); jk++) {
+                int j = jk % y->count, k = jk / y->count;
                 layout.rows[layout.n_rows++] = (struct patch_row){
                     (1 + x->offset) + 3 * (1 + y->offset) + 9 * (1 + z->offset),
                     (1 - x->offset) + 3 * (1 - y->offset) + 9 * (1 - z->offset),
                     x->node + BLOCK_EDGE * (y->node + j + BLOCK_EDGE * (z->node + k)),
-                    x->place + edge * (y->place + j + edge * (z->place + k)), x->count};
+                    x->place + row * (y->place + j + edge * (z->place + k)), x->count};
+            }
+        }
+        if (pass == 0)
+            layout.n_long = layout.n_rows;
     }
     return layout;
 }
@@ -47,6 +54,10 @@ struct grid *grid_open(const struct cell_list *cells, struct grid_form form, con
     grid->fields = form.fields;
     grid->patch_fields = form.patch_fields;
     grid->version = -1;
+    int largest = grid->fields * BLOCK_CELLS;
+    if (grid->patch_fields * grid->layout.nodes > largest)
+        largest = grid->patch_fields * grid->layout.nodes;
+    grid->nothing = memory_array((size_t)largest, sizeof *grid->nothing, "the grid");
     return grid;
 }
 
@@ -57,6 +68,7 @@ void grid_close(struct grid *grid)
     memory_free(grid->node);
     memory_free(grid->patch);
     memory_free(grid->fixed);
+    memory_free(grid->nothing);
     memory_free(grid);
 }
 
@@ -116,17 +128,21 @@ THREADS_VECTORISED
 void grid_read_patch(const struct grid *grid, int32_t block, int first, int count, double *patch)
 {
     const int32_t *neighbour = grid->cells->blocks[block].neighbour;
-    const struct patch_row *end = grid->layout.rows + grid->layout.n_rows;
-    for (const struct patch_row *row = grid->layout.rows; row < end; row++) {
-        const int32_t source = neighbour[row->neighbour];
-        for (int f = 0; f < count; f++) {
-            double *to = patch + f * grid->layout.nodes + row->place;
-            const double *from = source < 0 ? NULL : grid_field(grid, source, first + f) + row->node;
-            if (row->count == BLOCK_EDGE && from)
-                *(four *)to = *(const four *)from;
-            else
-                for (int i = 0; i < row->count; i++)
-                    to[i] = from ? from[i] : 0;
+    const struct patch_layout *layout = &grid->layout;
+    const double *source[BLOCK_NEIGHBOURS];
+    for (int i = 0; i < BLOCK_NEIGHBOURS; i++)
+        source[i] = neighbour[i] < 0 ? grid->nothing : grid_field(grid, neighbour[i], first);
+    for (int f = 0; f < count; f++) {
+        double *to = patch + f * layout->nodes;
+        const int field = f * BLOCK_CELLS;
+        for (int r = 0; r < layout->n_long; r++) {
+            const struct patch_row *row = &layout->rows[r];
+            *(four *)(to + row->place) = *(const four *)(source[row->neighbour] + field + row->node);
+        }
+        for (int r = layout->n_long; r < layout->n_rows; r++) {
+            const struct patch_row *row = &layout->rows[r];
+            for (int i = 0; i < row->count; i++)
+                to[row->place + i] = source[row->neighbour][field + row->node + i];
         }
     }
 }
@@ -135,20 +151,23 @@ THREADS_VECTORISED
 void grid_collect(struct grid *grid, int32_t b, int first, int count, int from_field)
 {
     const int32_t *neighbour = grid->cells->blocks[b].neighbour;
-    const struct patch_row *end = grid->layout.rows + grid->layout.n_rows;
-    memset(grid_field(grid, b, first), 0, (size_t)count * BLOCK_CELLS * sizeof(double));
-    for (const struct patch_row *row = grid->layout.rows; row < end; row++) {
-        const int32_t source = neighbour[row->mirrored];
-        if (source < 0 || source >= grid->cells->active)
-            continue;
-        for (int f = 0; f < count; f++) {
-            const double *from = grid_patch(grid, source, from_field + f) + row->place;
-            double *to = grid_field(grid, b, first + f) + row->node;
-            if (row->count == BLOCK_EDGE)
-                *(four *)to += *(const four *)from;
-            else
-                for (int i = 0; i < row->count; i++)
-                    to[i] += from[i];
+    const struct patch_layout *layout = &grid->layout;
+    const double *source[BLOCK_NEIGHBOURS];
+    for (int i = 0; i < BLOCK_NEIGHBOURS; i++)
+        source[i] = neighbour[i] < 0 || neighbour[i] >= grid->cells->active ? grid->nothing
+                                                                            : grid_patch(grid, neighbour[i], from_field);
+    for (int f = 0; f < count; f++) {
+        double *to = grid_field(grid, b, first + f);
+        const int field = f * layout->nodes;
+        memset(to, 0, BLOCK_CELLS * sizeof *to);
+        for (int r = 0; r < layout->n_long; r++) {
+            const struct patch_row *row = &layout->rows[r];
+            *(four *)(to + row->node) += *(const four *)(source[row->mirrored] + field + row->place);
+        }
+        for (int r = layout->n_long; r < layout->n_rows; r++) {
+            const struct patch_row *row = &layout->rows[r];
+            for (int i = 0; i < row->count; i++)
+                to[row->node + i] += source[row->mirrored][field + row->place + i];
         }
     }
 }

@@ -19,7 +19,7 @@ enum node_field {
 
 /* A patch is a block's nodes with those of its neighbours that its particles reach: nodes 0 ... 4
  * along each axis for supports of a cell, -1 ... 5 for wider ones. */
-enum { PATCH_FIELDS = 7, PATCH_FIELDS_CONTACT = 10, LARGEST_PATCH = 344 };
+enum { PATCH_FIELDS = 7, PATCH_FIELDS_CONTACT = 10, LARGEST_PATCH = 392 };
 
 /* Nodes that lie side by side in one block and in the patch. */
 struct patch_row {
@@ -30,9 +30,10 @@ struct patch_row {
 
 struct patch_layout {
     int edge;   /* nodes along an axis */
-    int nodes;  /* numbers to keep for a field: edge^3, rounded up */
+    int row;    /* numbers from one row to the next: rows of wide supports don't cross cache lines */
+    int nodes;  /* numbers to keep for a field */
     int origin; /* place of the block's own node 0 along an axis */
-    int n_rows;
+    int n_long, n_rows; /* long rows, of four nodes, come first */
     struct patch_row rows[160];
 };
 
@@ -47,6 +48,7 @@ struct grid {
     struct patch_layout layout;
     int fields, patch_fields; /* kept for each node and patch */
     uint8_t *fixed; /* [block][64], bits 1 2 4 for x y z */
+    double *nothing; /* zeros in place of the nodes or the patch of a block that is missing */
     size_t node_capacity, patch_capacity, fixed_capacity;
     long version;
 };
@@ -82,11 +84,11 @@ THREADS_INLINE double *grid_patch(const struct grid *grid, int32_t block, int f)
  * layout.nodes numbers. */
 void grid_read_patch(const struct grid *grid, int32_t block, int first, int count, double *patch);
 
-/* Place in a patch of edge `edge` of the low corner of cell c of the block. */
-THREADS_INLINE int grid_patch_corner(int c, int edge, int origin)
+/* Place in a patch of the low corner of cell c of the block. */
+THREADS_INLINE int grid_patch_corner(int c, int row, int edge, int origin)
 {
     int i = c % BLOCK_EDGE + origin, j = c / BLOCK_EDGE % BLOCK_EDGE + origin, k = c / (BLOCK_EDGE * BLOCK_EDGE) + origin;
-    return i + edge * (j + edge * k);
+    return i + row * (j + edge * k);
 }
 
 /* Sums the patches' fields from `from_field` on into `count` node fields from `first` of a block. */

@@ -183,7 +183,7 @@ THREADS_INLINE void scatter_block(struct mpm *mpm, int32_t b, bool momentum, boo
         prefetch_particles(mpm, mpm->cells->order[block->first + from], momentum, force);
         scatter_cell(mpm, mpm->cells->order + block->first + from, count, cell_low, sum, momentum, force, external,
                      normals, special);
-        add_corners(patch, grid_patch_corner(c, PATCH_EDGE, 0), momentum ? sum : sum + 4, fields);
+        add_corners(patch, grid_patch_corner(c, PATCH_EDGE, PATCH_EDGE, 0), momentum ? sum : sum + 4, fields);
     }
 }
 
@@ -227,7 +227,7 @@ THREADS_INLINE void gather_values(const struct chunk *chunk, double (*patch)[PAT
     struct workspace *w = chunk->workspace;
     for (struct cell_walk walk = {0}; walk_next(chunk, &walk);)
         for (int a = 0; a < 3; a++) {
-            struct polynomial c = polynomial_of(patch[a], grid_patch_corner(walk.cell, PATCH_EDGE, 0));
+            struct polynomial c = polynomial_of(patch[a], grid_patch_corner(walk.cell, PATCH_EDGE, PATCH_EDGE, 0));
             for (int32_t j = walk.from; j < walk.to; j += LANES) {
                 lanes x = *(lanes *)&w->local[0][j], y = *(lanes *)&w->local[1][j], z = *(lanes *)&w->local[2][j];
                 *(lanes *)&w->gathered[a][j] = (c.one + c.x * x) + y * (c.y + c.xy * x)
@@ -241,7 +241,7 @@ THREADS_INLINE void gather_gradient(const struct chunk *chunk, double (*patch)[P
 {
     struct workspace *w = chunk->workspace;
     for (struct cell_walk walk = {0}; walk_next(chunk, &walk);) {
-        int base = grid_patch_corner(walk.cell, PATCH_EDGE, 0);
+        int base = grid_patch_corner(walk.cell, PATCH_EDGE, PATCH_EDGE, 0);
         struct polynomial u = polynomial_of(patch[0], base), v = polynomial_of(patch[1], base),
                           t = polynomial_of(patch[2], base);
         for (int32_t j = walk.from; j < walk.to; j += LANES) {
@@ -292,7 +292,7 @@ THREADS_INLINE void scatter_new_momentum(const struct chunk *chunk, double *cons
             sum[2][LOWER] += n_lower * pz;
             sum[2][UPPER] += n_upper * pz;
         }
-        add_corners(patch, grid_patch_corner(walk.cell, PATCH_EDGE, 0), sum, 3);
+        add_corners(patch, grid_patch_corner(walk.cell, PATCH_EDGE, PATCH_EDGE, 0), sum, 3);
     }
 }
 
@@ -325,7 +325,7 @@ THREADS_INLINE void scatter_affine_momentum(const struct mpm *mpm, const struct 
                     way[a] = ((i >> a & 1) - w->local[a][j]) * mpm->cells->frame.size;
                     weight *= i >> a & 1 ? w->local[a][j] : 1 - w->local[a][j];
                 }
-                int node = grid_patch_corner(walk.cell, PATCH_EDGE, 0) + corner_offset[i >> 2][i & 3];
+                int node = grid_patch_corner(walk.cell, PATCH_EDGE, PATCH_EDGE, 0) + corner_offset[i >> 2][i & 3];
                 for (int a = 0; a < 3; a++)
                     patch[a][node] += weight * (velocity[a][j] + w->affine[3 * a][j] * way[0]
                                                 + w->affine[3 * a + 1][j] * way[1] + w->affine[3 * a + 2][j] * way[2]);

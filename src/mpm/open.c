@@ -237,6 +237,22 @@ static void create_cells(struct mpm *mpm)
     }
 }
 
+/* Bodies that lie outside the grid altogether take part in nothing: probably a mistake. */
+static void warn_of_outsiders(const struct mpm *mpm, struct diagnostics *diagnostics)
+{
+    const struct scene *scene = mpm->scene;
+    const struct store *store = mpm->store;
+    for (size_t b = 0; b < scene->n_bodies && mpm->cells->in_cells < mpm->cells->count; b++) {
+        const struct scene_body *body = &scene->bodies[b];
+        long outside = 0;
+        for (long id = body->first; id < body->first + body->count; id++)
+            outside += mpm->cells->cell[store->index_of_id[id]] == CELL_NONE;
+        if (outside > 0)
+            diagnostics_warning(diagnostics, body->place, "%ld of the %ld particles of this body lie outside the grid", outside,
+                                body->count);
+    }
+}
+
 /* The particles of the curx curves: for each body the first one within a quarter cell, later
  * bodies win (spec 3.6). */
 static void find_near_particles(struct mpm *mpm, struct scene *scene, struct diagnostics *diagnostics)
@@ -299,6 +315,7 @@ struct mpm *mpm_open(struct scene *scene, struct timers *timers, struct diagnost
     apply_loads(mpm);
     find_near_particles(mpm, scene, diagnostics);
     create_cells(mpm);
+    warn_of_outsiders(mpm, diagnostics);
     faces_open(mpm);
     mpm->n_workspaces = threads_available();
     mpm->workspaces = memory_array((size_t)mpm->n_workspaces, sizeof *mpm->workspaces, "threads");

@@ -8,10 +8,10 @@
 #include <math.h>
 #include <string.h>
 
-enum { EDGE = 7, SUPPORT = 3, PATCH_NODES = LARGEST_PATCH };
+enum { EDGE = 7, ROW = 8, SUPPORT = 3, PATCH_NODES = LARGEST_PATCH };
 
 /* Half width of the reference's gimp particles, in cells, whatever their spacing (spec 7.2). */
-static const double FIXED_HALF_WIDTH = 0.25;
+#define FIXED_HALF_WIDTH 0.25
 
 /* --- weights --- */
 
@@ -30,24 +30,25 @@ THREADS_INLINE void averaged_hat(double r, double l, double *weight, double *slo
  * below the cell. `local` is the position in the cell. */
 typedef void axis_weights(const struct mpm *mpm, const struct chunk *chunk, int a, const double *local, int32_t *low);
 
+/* `half_width` of each particle, or NULL for the fixed one. */
 THREADS_INLINE void hat_weights(const struct chunk *chunk, int a, const double *local, const double *half_width, int32_t *low)
 {
     struct workspace *w = chunk->workspace;
-    for (int32_t j = 0; j < chunk->count; j++) {
+    for (int32_t j = 0; j < chunk->count; j++)
         low[j] = local[j] < 0.5;
-        for (int n = 0; n < SUPPORT; n++)
-            averaged_hat(local[j] + (double)low[j] - n, half_width[j], &w->weight[a][n][j], &w->slope[a][n][j]);
+    for (int n = 0; n < SUPPORT; n++) {
+        double *restrict weight = w->weight[a][n], *restrict slope = w->slope[a][n];
+        for (int32_t j = 0; j < chunk->count; j++)
+            averaged_hat(local[j] + (local[j] < 0.5 ? 1 - n : -n), half_width ? half_width[j] : FIXED_HALF_WIDTH, &weight[j],
+                         &slope[j]);
     }
 }
 
 THREADS_VECTORISED
 static void fixed_hat_weights(const struct mpm *mpm, const struct chunk *chunk, int a, const double *local, int32_t *low)
 {
-    double half_width[CHUNK_PARTICLES];
     (void)mpm;
-    for (int32_t j = 0; j < chunk->count; j++)
-        half_width[j] = FIXED_HALF_WIDTH;
-    hat_weights(chunk, a, local, half_width, low);
+    hat_weights(chunk, a, local, NULL, low);
 }
 
 THREADS_VECTORISED
@@ -80,13 +81,13 @@ static void spline_weights(const struct mpm *mpm, const struct chunk *chunk, int
 THREADS_INLINE void find_weights(const struct mpm *mpm, const struct chunk *chunk, double *const position[3],
                                  axis_weights *weights)
 {
-    static const int stride[3] = {1, EDGE, EDGE * EDGE};
+    static const int stride[3] = {1, ROW, ROW * EDGE};
     const double inverse = 1 / mpm->cells->frame.size;
     struct workspace *w = chunk->workspace;
     int32_t low[CHUNK_PARTICLES];
     for (struct cell_walk walk = {0}; walk_next(chunk, &walk);)
         for (int32_t j = walk.from; j < walk.to; j++)
-            w->base[j] = grid_patch_corner(walk.cell, EDGE, 1);
+            w->base[j] = grid_patch_corner(walk.cell, ROW, EDGE, 1);
     for (int a = 0; a < 3; a++) {
         for (struct cell_walk walk = {0}; walk_next(chunk, &walk);) {
             double cell_low = chunk_cell_low(mpm, chunk, walk.cell, a);
@@ -111,7 +112,7 @@ THREADS_INLINE void scatter_values(struct workspace *w, int32_t j, double *patch
     for (int k = 0; k < SUPPORT; k++)
         for (int i = 0; i < SUPPORT; i++) {
             double across = w->weight[1][i][j] * w->weight[2][k][j];
-            double *row = patch + w->base[j] + EDGE * (i + EDGE * k);
+            double *row = patch + w->base[j] + ROW * (i + EDGE * k);
             for (int f = 0; f < fields; f++)
                 *(lanes *)(row + f * PATCH_NODES) += along * (across * values[f]);
         }
@@ -127,7 +128,7 @@ THREADS_INLINE void scatter_stress(struct workspace *w, int32_t j, double *patch
             double across = w->weight[1][i][j] * w->weight[2][k][j];
             double across_y = w->slope[1][i][j] * w->weight[2][k][j];
             double across_z = w->weight[1][i][j] * w->slope[2][k][j];
-            double *row = patch + w->base[j] + EDGE * (i + EDGE * k);
+            double *row = patch + w->base[j] + ROW * (i + EDGE * k);
             for (int a = 0; a < 3; a++) {
                 double flat = stress[a][1] * across_y + stress[a][2] * across_z;
                 if (external)
@@ -195,7 +196,7 @@ THREADS_INLINE void gather_values(const struct chunk *chunk, const double *field
         for (int k = 0; k < SUPPORT; k++)
             for (int i = 0; i < SUPPORT; i++) {
                 double across = w->weight[1][i][j] * w->weight[2][k][j];
-                const double *row = fields + w->base[j] + EDGE * (i + EDGE * k);
+                const double *row = fields + w->base[j] + ROW * (i + EDGE * k);
                 for (int a = 0; a < 3; a++)
                     sum[a] += *(const lanes *)(row + a * PATCH_NODES) * across;
             }
@@ -217,7 +218,7 @@ THREADS_INLINE void gather_gradient(const struct chunk *chunk, const double *fie
                 double across = w->weight[1][i][j] * w->weight[2][k][j];
                 double across_y = w->slope[1][i][j] * w->weight[2][k][j];
                 double across_z = w->weight[1][i][j] * w->slope[2][k][j];
-                const double *row = fields + w->base[j] + EDGE * (i + EDGE * k);
+                const double *row = fields + w->base[j] + ROW * (i + EDGE * k);
                 for (int a = 0; a < 3; a++) {
                     lanes value = *(const lanes *)(row + a * PATCH_NODES);
                     flat[a] += value * across;

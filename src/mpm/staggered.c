@@ -24,7 +24,7 @@ enum centre_field {
     CENTRE_FIELDS = CENTRE_GRADIENT + 9
 };
 
-enum { EDGE = BLOCK_EDGE + 2, PATCH_NODES = 224, PAIR = 2, MOMENTUM_FIELDS = 4, FORCE_FIELDS = 12 };
+enum { EDGE = BLOCK_EDGE + 2, PATCH_NODES = 216, PAIR = 2, MOMENTUM_FIELDS = 4, FORCE_FIELDS = 12 };
 
 static struct grid *open_centres(const struct mpm *mpm)
 {

@@ -51,7 +51,7 @@ static int patch_edge(const struct grid *grid)
 
 static int patch_size(const struct grid *grid)
 {
-    return patch_edge(grid) * patch_edge(grid) * patch_edge(grid);
+    return grid->layout.row * patch_edge(grid) * patch_edge(grid);
 }
 
 /* Place in a patch of the block's own node 0, along an axis. */
@@ -60,12 +60,13 @@ static int patch_origin(const struct grid *grid)
     return grid->layout.origin;
 }
 
-/* Coordinates of node n of a block's patch. */
+/* Coordinates of node n of a block's patch; -1 for what only fills up a row. */
 static void patch_place(const struct grid *grid, int32_t block, int n, int32_t at[3])
 {
-    const int edge = patch_edge(grid), place[3] = {n % edge, n / edge % edge, n / (edge * edge)};
+    const int edge = patch_edge(grid), row = grid->layout.row;
+    const int place[3] = {n % row, n / row % edge, n / (row * edge)};
     for (int a = 0; a < 3; a++)
-        at[a] = grid->cells->blocks[block].at[a] * BLOCK_EDGE + place[a] - patch_origin(grid);
+        at[a] = place[0] >= edge ? -1 : grid->cells->blocks[block].at[a] * BLOCK_EDGE + place[a] - patch_origin(grid);
 }
 
 static bool is_in_grid(const struct grid *grid, const int32_t at[3])
