@@ -7,6 +7,8 @@ build=$(cd "$1" && pwd) || exit 2
 cd "$(dirname "$0")/.." || exit 2
 ASAN_OPTIONS=exitcode=99:${ASAN_OPTIONS:-}; export ASAN_OPTIONS
 UBSAN_OPTIONS=exitcode=99:print_stacktrace=1:${UBSAN_OPTIONS:-}; export UBSAN_OPTIONS
+# threads that wait go to sleep soon, as mpm3d itself sees to
+GOMP_SPINCOUNT=${GOMP_SPINCOUNT:-1000} KMP_BLOCKTIME=${KMP_BLOCKTIME:-0}; export GOMP_SPINCOUNT KMP_BLOCKTIME
 log=$(mktemp) || exit 2
 all=$(mktemp) || exit 2
 trap 'rm -f "$log" "$all"' EXIT INT TERM

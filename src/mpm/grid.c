@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* Fewer blocks than this are not worth a second thread. */
-enum { SHARED_BLOCKS = 32 };
+enum { SHARED_BLOCKS = 64 };
 
 /* Part of a patch along an axis: `count` nodes from `node` of the neighbour `offset` blocks further,
  * at `place` in the patch. */

@@ -6,13 +6,13 @@
 #include <float.h>
 #include <math.h>
 
-/* Fewer blocks than this are not worth a second thread. */
-enum { SHARED_BLOCKS = 8 };
+/* Fewer particles than this are not worth a second thread. */
+enum { SHARED_PARTICLES = 4000 };
 
 void mpm_each_block(struct mpm *mpm, block_pass *pass)
 {
     const int32_t active = mpm->cells->active;
-#pragma omp parallel for schedule(dynamic, 1) if (active >= SHARED_BLOCKS)
+#pragma omp parallel for schedule(dynamic, 1) if (mpm->cells->count >= SHARED_PARTICLES)
     for (int32_t b = 0; b < active; b++)
         pass(mpm, b);
 }
