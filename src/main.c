@@ -37,7 +37,7 @@ static void print_usage(FILE *stream)
           "  DECK             a deck such as job.mpm; - is standard input\n"
           "  --check          read the deck and build the scene, do not run\n"
           "  -o DIR           write the output files to DIR, made where it is missing\n"
-          "  --threads N      use N threads (default: all processors)\n"
+          "  --threads N      use N threads (default: all processors, one for small scenes)\n"
           "  --quiet          no progress line and no summary\n"
           "  --help [WORD]    this text and all words, or one word, law, generator or result\n"
           "  --manual         the manual of all words, as Markdown\n"
@@ -116,7 +116,7 @@ int main(int count, char **arguments)
         else if (strcmp(word, "--threads") == 0 && !set_thread_count(arguments[++i]))
             return (int)wrong_usage("not a number of threads from 1 to 1024:", value);
         else if (strcmp(word, "--threads") == 0)
-            continue;
+            options.has_threads = true;
         else if (word[0] == '-' && word[1])
             return (int)wrong_usage("unknown option", word);
         else if (options.deck)

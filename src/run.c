@@ -67,6 +67,8 @@ static enum status read_deck(struct run *run)
 static enum status build(struct run *run)
 {
     run->mpm = mpm_open(run->scene, &run->timers, run->diagnostics);
+    if (run->options.has_threads)
+        mpm_share_always(run->mpm);
     print_diagnostics(run);
     run->source = (struct result_source){run->mpm->store, run->mpm->material_of_body, run->mpm->material_number_of_body};
     return diagnostics_errors(run->diagnostics) > 0 ? STATUS_DECK : STATUS_FINISHED;

@@ -17,6 +17,7 @@ struct run_options {
     const char *deck;   /* path, or "-" */
     const char *folder; /* of the output files; "" is the present one */
     bool quiet;
+    bool has_threads; /* a number of threads was asked for */
     bool only_check;
 };
 

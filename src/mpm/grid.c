@@ -54,6 +54,7 @@ struct grid *grid_open(const struct cell_list *cells, struct grid_form form, con
     grid->fields = form.fields;
     grid->patch_fields = form.patch_fields;
     grid->version = -1;
+    grid->shared_blocks = SHARED_BLOCKS;
     int largest = grid->fields * BLOCK_CELLS;
     if (grid->patch_fields * grid->layout.nodes > largest)
         largest = grid->patch_fields * grid->layout.nodes;
@@ -189,7 +190,7 @@ static void advance_block(struct grid *grid, int32_t b, double step)
 void grid_integrate_momentum(struct grid *grid, int first, int count, double step)
 {
     const int32_t blocks = grid->cells->n_blocks;
-#pragma omp parallel for schedule(static) if (blocks >= SHARED_BLOCKS)
+#pragma omp parallel for schedule(static) if (blocks >= grid->shared_blocks)
     for (int32_t b = 0; b < blocks; b++) {
         grid_collect(grid, b, first, count - 3, 0);
         grid_collect(grid, b, NODE_NORMAL, 3, count - 3);
@@ -212,7 +213,7 @@ static void divide_block(struct grid *grid, int32_t b)
 void grid_divide(struct grid *grid)
 {
     const int32_t blocks = grid->cells->n_blocks;
-#pragma omp parallel for schedule(static) if (blocks >= SHARED_BLOCKS)
+#pragma omp parallel for schedule(static) if (blocks >= grid->shared_blocks)
     for (int32_t b = 0; b < blocks; b++)
         divide_block(grid, b);
 }
@@ -240,7 +241,7 @@ void grid_integrate_block(struct grid *grid, int32_t b, double step)
 void grid_integrate(struct grid *grid, int first, int count, double step)
 {
     const int32_t blocks = grid->cells->n_blocks;
-#pragma omp parallel for schedule(static) if (blocks >= SHARED_BLOCKS)
+#pragma omp parallel for schedule(static) if (blocks >= grid->shared_blocks)
     for (int32_t b = 0; b < blocks; b++) {
         grid_collect(grid, b, first, count, 0);
         grid_integrate_block(grid, b, step);
@@ -267,7 +268,7 @@ void grid_straining_velocity(struct grid *grid, int first, int count)
 {
     const int32_t blocks = grid->cells->n_blocks;
     const int source = first == NODE_MASS ? NODE_MOMENTUM : first;
-#pragma omp parallel for schedule(static) if (blocks >= SHARED_BLOCKS)
+#pragma omp parallel for schedule(static) if (blocks >= grid->shared_blocks)
     for (int32_t b = 0; b < blocks; b++) {
         grid_collect(grid, b, first, count, 0);
         grid_straining_block(grid, b, source);
@@ -277,7 +278,7 @@ void grid_straining_velocity(struct grid *grid, int first, int count)
 void grid_quotient(struct grid *grid, int first)
 {
     const int32_t blocks = grid->cells->n_blocks;
-#pragma omp parallel for schedule(static) if (blocks >= SHARED_BLOCKS)
+#pragma omp parallel for schedule(static) if (blocks >= grid->shared_blocks)
     for (int32_t b = 0; b < blocks; b++) {
         grid_collect(grid, b, first, 2, 0);
         double *above = grid_field(grid, b, first), *below = grid_field(grid, b, first + 1);

@@ -47,6 +47,7 @@ struct grid {
     double *patch;  /* [active block][patch_fields][layout.nodes]: what its particles give to nodes */
     struct patch_layout layout;
     int fields, patch_fields; /* kept for each node and patch */
+    int32_t shared_blocks;    /* fewer blocks than this are not worth a second thread */
     uint8_t *fixed; /* [block][64], bits 1 2 4 for x y z */
     double *nothing; /* zeros in place of the nodes or the patch of a block that is missing */
     size_t node_capacity, patch_capacity, fixed_capacity;

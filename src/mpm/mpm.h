@@ -70,6 +70,7 @@ struct mpm {
     enum column place;       /* positions that tell cells and weights: present, or initial ones (TLmp) */
     bool is_total;           /* total Lagrangian: cells stay, forces from the first Piola-Kirchhoff stress */
     int straining_field;     /* node field of the velocities that strain particles: of the scheme */
+    bool shares_always;      /* threads share the work however little there is: a number was asked for */
     bool smooths;            /* the next step computes the smoothed pressure */
     bool has_external_force; /* loads, gravity or damping */
     bool has_one_law;        /* all bodies share one material */
@@ -102,6 +103,9 @@ struct mpm {
  * `diagnostics`. */
 struct mpm *mpm_open(struct scene *scene, struct timers *timers, struct diagnostics *diagnostics);
 void mpm_close(struct mpm *mpm);
+
+/* Lets threads share the work of small scenes too, where they only cost. */
+void mpm_share_always(struct mpm *mpm);
 
 /* One step. */
 void mpm_step(struct mpm *mpm);

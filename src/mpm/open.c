@@ -323,6 +323,15 @@ struct mpm *mpm_open(struct scene *scene, struct timers *timers, struct diagnost
     return mpm;
 }
 
+void mpm_share_always(struct mpm *mpm)
+{
+    mpm->shares_always = true;
+    mpm->cells->shared_blocks = 1;
+    mpm->grid->shared_blocks = 1;
+    if (mpm->centres)
+        mpm->centres->shared_blocks = 1;
+}
+
 void mpm_close(struct mpm *mpm)
 {
     if (!mpm)

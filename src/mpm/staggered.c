@@ -284,7 +284,7 @@ static void centre_gradient(const struct mpm *mpm, int32_t b)
 static void each_block(const struct mpm *mpm, void (*pass)(const struct mpm *mpm, int32_t b))
 {
     const int32_t blocks = mpm->cells->n_blocks;
-#pragma omp parallel for schedule(static) if (blocks >= 16)
+#pragma omp parallel for schedule(static) if (blocks >= mpm->grid->shared_blocks)
     for (int32_t b = 0; b < blocks; b++)
         pass(mpm, b);
 }

@@ -12,7 +12,7 @@ enum { SHARED_PARTICLES = 4000 };
 void mpm_each_block(struct mpm *mpm, block_pass *pass)
 {
     const int32_t active = mpm->cells->active;
-#pragma omp parallel for schedule(dynamic, 1) if (mpm->cells->count >= SHARED_PARTICLES)
+#pragma omp parallel for schedule(dynamic, 1) if (mpm->shares_always || mpm->cells->count >= SHARED_PARTICLES)
     for (int32_t b = 0; b < active; b++)
         pass(mpm, b);
 }

@@ -49,6 +49,7 @@ struct cell_list *cell_list_open(struct cell_frame frame, const int32_t *compone
     list->cell = memory_array(count, sizeof *list->cell, "particle cells");
     list->rooms->order_next = memory_array(count, sizeof *list->order, "particle order");
     list->rooms->reach = reach;
+    list->shared_blocks = SHARED_BLOCKS;
     return list;
 }
 
@@ -347,7 +348,7 @@ static void refill(struct cell_list *list, const struct store *store, size_t n_l
                                   "moving particles");
     group_arrivals(list, n_leavers);
     lay_out(list, renumbered);
-#pragma omp parallel for schedule(dynamic, 8) if (list->active >= SHARED_BLOCKS)
+#pragma omp parallel for schedule(dynamic, 8) if (list->active >= list->shared_blocks)
     for (int32_t b = 0; b < list->active; b++) {
         const int32_t *first = rooms->arrivals_first;
         if (list->block_changed[renumbered ? rooms->previous[b] : b] || first[b + 1] > first[b])

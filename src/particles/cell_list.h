@@ -39,6 +39,7 @@ struct cell_list {
     struct cell_block *blocks;
     int32_t active;         /* blocks 0 ... active - 1 hold particles, sorted by place */
     int32_t n_blocks;       /* the others only hold nodes that particles of active blocks reach */
+    int32_t shared_blocks;  /* fewer blocks than this are not worth a second thread */
     long version;           /* counts changes of the set of blocks */
     double moved;           /* particles that changed cell since the last sorting in memory */
     struct cell_list_rooms *rooms; /* private */
