@@ -20,6 +20,7 @@ static const struct limit limits[LIMIT_ROWS] = {
     [LIMIT_POISSON] = {"between -1 and 0.5", -1, 0.5, true, true},
     [LIMIT_STEP_SCALE] = {"greater than 0 and at most 2.5", 0, 2.5, true, false},
     [LIMIT_BOUNDARY] = {"0 (free), 1 (fixed) or 2 (normal component fixed)", 0, 2, false, false},
+    [LIMIT_NORMAL] = {"0 (of both components), 1 (of the first) or 2 (of the second)", 0, 2, false, false},
     [LIMIT_DIGITS] = {"from 2 to 17", 2, 17, false, false},
     [LIMIT_FRACTION] = {"from 0 to 1", 0, 1, false, false},
 };

@@ -21,6 +21,7 @@ enum argument_limit {
     LIMIT_POISSON,       /* -1 < nu < 0.5 */
     LIMIT_STEP_SCALE,    /* 0 < f <= 2.5 */
     LIMIT_BOUNDARY,      /* 0, 1, 2 */
+    LIMIT_NORMAL,        /* 0, 1, 2 */
     LIMIT_DIGITS,        /* 2 ... 17 */
     LIMIT_FRACTION,      /* 0 ... 1 */
     LIMIT_ROWS

@@ -16,15 +16,18 @@ static void read_end_time(struct reader *reader, const struct deck_word *word, c
     reader->scene->output_interval = values[0].real;
 }
 
-/* Without any scheme switched on, MUSL runs; usf wins over all, musl over usl (spec 2). */
+/* Without any scheme ever switched on MUSL runs; else usf wins over all, musl over usl (spec 2). */
 static void switch_scheme(struct reader *reader, const struct value *values, const char *name, enum scheme scheme)
 {
-    static const int rank[] = {[SCHEME_USF] = 3, [SCHEME_MUSL] = 2, [SCHEME_USL] = 1};
-    if (reader_switch(reader, &values[0], name) != 1)
+    int on = reader_switch(reader, &values[0], name);
+    if (on < 0)
         return;
-    if (!reader->has_scheme || rank[scheme] > rank[reader->scene->scheme])
-        reader->scene->scheme = scheme;
-    reader->has_scheme = true;
+    reader->scheme_is_on[scheme] = on == 1;
+    reader->has_scheme = reader->has_scheme || on == 1;
+    if (reader->has_scheme)
+        reader->scene->scheme = reader->scheme_is_on[SCHEME_USF]    ? SCHEME_USF
+                              : reader->scheme_is_on[SCHEME_MUSL] ? SCHEME_MUSL
+                                                                  : SCHEME_USL;
 }
 
 static void read_musl(struct reader *reader, const struct deck_word *word, const struct value *values)
@@ -229,7 +232,7 @@ const struct keyword solving_keywords[] = {
     {.name = "cont", .long_name = "contact",
      .arguments = (const struct argument[]){{"lagr|othe", NULL, ARGUMENT_WORD, LIMIT_NONE},
                                             {"friction", NULL, ARGUMENT_REAL, LIMIT_NOT_NEGATIVE},
-                                            {"normal", NULL, ARGUMENT_INTEGER, LIMIT_BOUNDARY}, {0}},
+                                            {"normal", NULL, ARGUMENT_INTEGER, LIMIT_NORMAL}, {0}},
      .apply = read_contact,
      .doc = "contact of components: by forces on shared nodes (lagr), or none, bodies pass each other (othe); "
             "friction; normal of both (0), the first (1) or the second component (2)"},

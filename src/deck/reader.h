@@ -23,7 +23,8 @@ struct reader {
     bool is_partial;               /* a line or file was not understood: what seems missing may be there */
     bool in_materials;             /* a number before the name of a law is the next material's id */
     bool has_bad_material, has_bad_part;
-    bool has_scheme;               /* a scheme was switched on */
+    bool has_scheme;               /* some scheme was switched on at some place */
+    bool scheme_is_on[3];          /* by enum scheme */
     bool has_output_interval;
     bool has_plot_box;             /* pt2d was read: it holds for bodies that follow */
     double plot_box[6];

@@ -297,17 +297,32 @@ THREADS_INLINE void scatter_new_momentum(const struct chunk *chunk, double *cons
 }
 
 /* Velocity gradient of the chunk's particles into their column and the workspace (xfer apic; for linear
- * shapes this is the affine part of Jiang et al., ACM Trans. Graph. 34, 2015). */
-THREADS_INLINE void gather_affine(const struct mpm *mpm, const struct chunk *chunk, double (*patch)[PATCH_NODES])
+ * shapes this is the affine part of Jiang et al., ACM Trans. Graph. 34, 2015). A point near a face of its
+ * cell has next to no inertia, xi (1 - xi) cell^2, against a gradient along that axis, and the light
+ * node that it gives to accelerates without bound: there the gradient follows the acceleration as if
+ * the inertia were that of a point a quarter cell from the face. */
+THREADS_INLINE void gather_affine(const struct mpm *mpm, const struct chunk *chunk, double (*velocity)[PATCH_NODES],
+                                  double (*acceleration)[PATCH_NODES])
 {
+    static const double LEAST_INERTIA = 3.0 / 16;
     struct workspace *w = chunk->workspace;
-    gather_gradient(chunk, patch, 1 / mpm->cells->frame.size);
+    const double inverse = 1 / mpm->cells->frame.size, step = mpm->time_step * mpm->momentum_factor;
+    gather_gradient(chunk, velocity, inverse);
+    for (int32_t j = 0; j < chunk->count; j++) {
+        double g[3][3];
+        chunk_get_gradient(w, j, g);
+        for (int f = 0; f < 9; f++)
+            w->affine[f][j] = g[f / 3][f % 3];
+    }
+    gather_gradient(chunk, acceleration, inverse * step);
     for (int32_t j = 0; j < chunk->count; j++) {
         double g[3][3];
         chunk_get_gradient(w, j, g);
         for (int f = 0; f < 9; f++) {
-            w->affine[f][j] = g[f / 3][f % 3];
-            mpm->store->real[COLUMN_AFFINE][f][chunk->order[j]] = g[f / 3][f % 3];
+            double local = w->local[f % 3][j], inertia = local * (1 - local);
+            if (inertia < LEAST_INERTIA)
+                w->affine[f][j] -= (1 - inertia / LEAST_INERTIA) * g[f / 3][f % 3];
+            mpm->store->real[COLUMN_AFFINE][f][chunk->order[j]] = w->affine[f][j];
         }
     }
 }
@@ -358,7 +373,7 @@ THREADS_INLINE void velocity_chunk(struct mpm *mpm, struct chunk *chunk, bool mo
     gather_values(chunk, values_of(w, PATCH_ACCELERATION));
     motion_accelerate(mpm, chunk, velocity, mass);
     if (blends && mpm->scene->transfer == TRANSFER_AFFINE)
-        gather_affine(mpm, chunk, values_of(w, PATCH_VELOCITY));
+        gather_affine(mpm, chunk, values_of(w, PATCH_VELOCITY), values_of(w, PATCH_ACCELERATION));
     if (remaps && blends && mpm->scene->transfer == TRANSFER_AFFINE)
         scatter_affine_momentum(mpm, chunk, velocity, mass, patch_of(mpm, chunk->block_index));
     else if (remaps)

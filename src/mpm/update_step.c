@@ -89,12 +89,36 @@ static void update_stress_last(struct mpm *mpm)
     mpm_each_block(mpm, mpm->shape->gather_strain);
 }
 
+/* Adds the particles order[from] ... order[to - 1]. */
+static void add_particles(const struct mpm *mpm, int32_t from, int32_t to, struct sums *total)
+{
+    const struct store *store = mpm->store;
+    for (int32_t k = from; k < to; k++) {
+        int32_t p = mpm->cells->order[k];
+        double mass = store->real[COLUMN_MASS][0][p], square = 0;
+        for (int a = 0; a < 3; a++) {
+            double v = store->real[COLUMN_VELOCITY][a][p];
+            square += v * v;
+            total->momentum[a] += mass * v;
+            total->fastest = fabs(v) > total->fastest ? fabs(v) : total->fastest;
+        }
+        total->kinetic += 0.5 * mass * square;
+        total->internal += store->real[COLUMN_ENERGY][0][p];
+    }
+}
+
 /* Step 9: the deformed grid is given up; particles find their new cells. */
 static void discard_grid(struct mpm *mpm)
 {
     struct cell_list *cells = mpm->cells;
+    const int32_t in_cells = cells->in_cells;
     timers_enter(mpm->timers, PHASE_CELLS);
     cell_list_update(cells, mpm->store);
+    if (mpm->scene->lost == LOST_DROP && cells->in_cells < in_cells) { /* what leaves takes its energy along */
+        struct sums dropped = {0};
+        add_particles(mpm, cells->in_cells, in_cells, &dropped);
+        mpm->removed_energy += dropped.kinetic + dropped.internal;
+    }
     if (mpm->scene->sorts && cells->moved > 0.1 * cells->count) {
         timers_enter(mpm->timers, PHASE_SORT);
         cell_list_sort(cells, mpm->store);
@@ -124,28 +148,10 @@ static void add_sums(struct sums *total, const struct sums *part)
     total->least_volume = part->least_volume < total->least_volume ? part->least_volume : total->least_volume;
 }
 
-/* Adds the particles order[from] ... order[to - 1]. */
-static void add_particles(const struct mpm *mpm, int32_t from, int32_t to, struct sums *total)
-{
-    const struct store *store = mpm->store;
-    for (int32_t k = from; k < to; k++) {
-        int32_t p = mpm->cells->order[k];
-        double mass = store->real[COLUMN_MASS][0][p], square = 0;
-        for (int a = 0; a < 3; a++) {
-            double v = store->real[COLUMN_VELOCITY][a][p];
-            square += v * v;
-            total->momentum[a] += mass * v;
-            total->fastest = fabs(v) > total->fastest ? fabs(v) : total->fastest;
-        }
-        total->kinetic += 0.5 * mass * square;
-        total->internal += store->real[COLUMN_ENERGY][0][p];
-    }
-}
-
 struct sums mpm_total(const struct mpm *mpm)
 {
     struct sums total = {.least_volume = DBL_MAX};
-    add_particles(mpm, 0, mpm->cells->count, &total);
+    add_particles(mpm, 0, mpm->scene->lost == LOST_DROP ? mpm->cells->in_cells : mpm->cells->count, &total);
     return total;
 }
 

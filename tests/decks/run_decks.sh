@@ -23,7 +23,7 @@ while IFS='|' read -r deck ending words expected tolerance source; do
     found=$("$build/tecstat" "$folder/$job$ending" $words 2>&1 | tail -n 1)
     echo "$found $expected $tolerance" | awk -v name="$name" '{
         absolute = sub(/a$/, "", $3); difference = $1 - $2; if (difference < 0) difference = -difference
-        size = $2 < 0 ? -$2 : $2; bound = absolute ? $3 : $3 * size
+        size = $2 < 0 ? -$2 : $2; bound = absolute ? $3 + 0 : $3 * size
         if ($1 + 0 == $1 && difference <= bound) print "ok " name
         else { print "FAIL " name ": " $1 " instead of " $2 ", tolerance " bound; exit 1 }
     }' || failed=1
