@@ -271,6 +271,11 @@ void reader_finish_solving(struct reader *reader)
         check_contact(reader);
     if (scene->is_total)
         check_total(reader);
+    if (scene->transfer == TRANSFER_AFFINE && scene->interpolation != INTERPOLATION_LINEAR)
+        diagnostics_error(reader->diagnostics, reader->transfer_place, "'xfer apic' does not go with 'gimp', 'bimp' or 'sgmp'");
+    if (scene->averages_volume && (scene->interpolation != INTERPOLATION_LINEAR || scene->is_total))
+        diagnostics_error(reader->diagnostics, reader->averaging_place,
+                          "'bbar' does not go with 'gimp', 'bimp', 'sgmp' or 'TLmp'");
     for (size_t i = 0; i < scene->n_loads && scene->interpolation != INTERPOLATION_LINEAR; i++)
         if (scene->loads[i].kind == LOAD_FACE) { /* said once */
             diagnostics_error(reader->diagnostics, scene->loads[i].place,

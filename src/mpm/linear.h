@@ -71,7 +71,7 @@ THREADS_INLINE void scatter_cell(const struct mpm *mpm, const int32_t *order, in
 {
     const struct store *store = mpm->store;
     const double inverse = 1 / mpm->cells->frame.size;
-    const double cell_mean = special && force ? mean_stress_of(mpm, order, count) : 0;
+    const double cell_mean = special && force && mpm->scene->averages_volume ? mean_stress_of(mpm, order, count) : 0;
     for (int32_t k = 0; k < count; k++) {
         size_t p = (size_t)order[k];
         double x = (store->real[mpm->place][0][p] - cell_low[0]) * inverse;
