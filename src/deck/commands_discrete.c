@@ -10,17 +10,11 @@
 static const char *nearest_generator(const char *word)
 {
     const char *found = NULL;
-    int best = 99, count;
+    int best = KEYWORD_FAR, count;
     const struct generator_row *rows = generator_rows(&count);
     for (int i = 0; i < count; i++) {
-        const char *spellings[2] = {rows[i].name, rows[i].long_name};
-        for (int s = 0; s < 2; s++) {
-            int distance = keyword_distance(word, spellings[s]);
-            if (distance >= 0 && distance < best) {
-                best = distance;
-                found = spellings[s];
-            }
-        }
+        keyword_nearer(word, rows[i].name, &best, &found);
+        keyword_nearer(word, rows[i].long_name, &best, &found);
     }
     return found;
 }

@@ -20,14 +20,9 @@ static struct scene_material *material_at(struct scene *scene, size_t index)
 static const char *nearest_law(const char *word)
 {
     const char *found = NULL;
-    int best = 99;
-    for (const struct law *const *row = law_rows(); *row; row++) {
-        int distance = keyword_distance(word, (*row)->name);
-        if (distance >= 0 && distance < best) {
-            best = distance;
-            found = (*row)->name;
-        }
-    }
+    int best = KEYWORD_FAR;
+    for (const struct law *const *row = law_rows(); *row; row++)
+        keyword_nearer(word, (*row)->name, &best, &found);
     return found;
 }
 

@@ -19,16 +19,11 @@ static const struct result *find_result(struct reader *reader, const struct deck
     }
     if (row)
         return row;
-    int best = 99, count;
+    int best = KEYWORD_FAR, count;
     const struct result *rows = result_rows(&count);
     const char *nearest = NULL;
-    for (int i = 0; i < count; i++) {
-        int distance = keyword_distance(name, rows[i].name);
-        if (distance >= 0 && distance < best) {
-            best = distance;
-            nearest = rows[i].name;
-        }
-    }
+    for (int i = 0; i < count; i++)
+        keyword_nearer(name, rows[i].name, &best, &nearest);
     reader_unknown(reader, word, "result", nearest, "outr");
     reader_skip_line(reader);
     return NULL;

@@ -96,24 +96,27 @@ int keyword_row_distance(const struct keyword *row, const char *word)
     return by_name < 0 || (by_long_name >= 0 && by_long_name < by_name) ? by_long_name : by_name;
 }
 
+void keyword_nearer(const char *word, const char *name, int *best, const char **found)
+{
+    int distance = name ? keyword_distance(word, name) : -1;
+    if (distance >= 0 && distance < *best) {
+        *best = distance;
+        *found = name;
+    }
+}
+
 /* Improves *best and *found by the rows of a table. */
 static void nearest(const struct keyword *table, const char *word, int *best, const char **found)
 {
     for (const struct keyword *row = table; row->name; row++) {
-        const char *spellings[2] = {row->name, row->long_name};
-        for (int s = 0; s < 2; s++) {
-            int distance = spellings[s] ? keyword_distance(word, spellings[s]) : -1;
-            if (distance >= 0 && distance < *best) {
-                *best = distance;
-                *found = spellings[s];
-            }
-        }
+        keyword_nearer(word, row->name, best, found);
+        keyword_nearer(word, row->long_name, best, found);
     }
 }
 
 const char *keyword_nearest(const struct keyword *table, const char *word)
 {
-    int best = 99;
+    int best = KEYWORD_FAR;
     const char *found = NULL;
     nearest(table, word, &best, &found);
     return found;
@@ -121,7 +124,7 @@ const char *keyword_nearest(const struct keyword *table, const char *word)
 
 const char *keyword_nearest_top(const char *word)
 {
-    int best = 99;
+    int best = KEYWORD_FAR;
     const char *found = NULL;
     for (int c = 0; c < CATEGORY_COUNT; c++)
         nearest(categories[c].table, word, &best, &found);

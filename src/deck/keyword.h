@@ -70,4 +70,9 @@ int keyword_row_distance(const struct keyword *row, const char *word);
 /* Whether two spellings are near enough for a suggestion; smaller is nearer, -1 is far. */
 int keyword_distance(const char *word, const char *name);
 
+/* Keeps `name` (may be NULL) in *found when it is nearer to the word than *best, and its distance in
+ * *best. Start with KEYWORD_FAR. */
+enum { KEYWORD_FAR = 99 };
+void keyword_nearer(const char *word, const char *name, int *best, const char **found);
+
 #endif

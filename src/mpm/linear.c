@@ -143,7 +143,7 @@ static void smooth_give(struct mpm *mpm, int32_t b)
                                   * (i & 2 ? w->local[1][j] : 1 - w->local[1][j])
                                   * (i & 4 ? w->local[2][j] : 1 - w->local[2][j]);
                     int node = grid_patch_corner(walk.cell, PATCH_EDGE, PATCH_EDGE, 0) + corner_offset[i >> 2][i & 3];
-                    patch[0][node] += weight * volume * smoothing_pressure(mpm, (size_t)chunk.order[j]);
+                    patch[0][node] += weight * volume * store_pressure(mpm->store, (size_t)chunk.order[j]);
                     patch[1][node] += weight * volume;
                 }
     }

@@ -25,7 +25,6 @@ struct sums {
 
 /* What external forces act on particles of a body or material. */
 struct body_data {
-    const struct material *material;
     double gravity[3];
     double half_width; /* of a particle, in cells: for gimp cp */
 };
@@ -177,7 +176,6 @@ double faces_work(const struct mpm *mpm); /* after the grid is integrated */
 /* Smoothed pressure (spec 9.6). */
 void smoothing_start(struct mpm *mpm);  /* before a step */
 void smoothing_finish(struct mpm *mpm); /* after its stress and motion, before cells change */
-double smoothing_pressure(const struct mpm *mpm, size_t p);
 double smoothing_volume(const struct mpm *mpm, size_t p);
 
 /* Contact between components: after the momentum equation, before velocities are taken. */

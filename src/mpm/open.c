@@ -194,7 +194,7 @@ static void create_bodies(struct mpm *mpm)
     mpm->has_one_law = true;
     for (size_t b = 0; b < scene->n_bodies; b++) {
         int material = scene->bodies[b].generator.material;
-        mpm->material_of_body[b] = mpm->bodies[b].material = &scene->materials[material].material;
+        mpm->material_of_body[b] = &scene->materials[material].material;
         mpm->material_number_of_body[b] = material + 1;
         mpm->component_of_body[b] = scene->contact == CONTACT_NONE ? 0 : scene->bodies[b].component;
         double spacing = scene->bodies[b].generator.spacing;

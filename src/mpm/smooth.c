@@ -319,7 +319,7 @@ THREADS_INLINE void smooth_block(struct mpm *mpm, int32_t b, axis_weights *weigh
             gather_values(&chunk, w->patch);
         for (int32_t j = 0; j < chunk.count; j++) {
             double volume = smoothing_volume(mpm, (size_t)chunk.order[j]);
-            double values[2] = {volume * smoothing_pressure(mpm, (size_t)chunk.order[j]), volume};
+            double values[2] = {volume * store_pressure(mpm->store, (size_t)chunk.order[j]), volume};
             if (gives)
                 scatter_values(w, j, patch, values, 2);
             else

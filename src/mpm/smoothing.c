@@ -31,14 +31,6 @@ void smoothing_finish(struct mpm *mpm)
     mpm->smooths = false;
 }
 
-double smoothing_pressure(const struct mpm *mpm, size_t p)
-{
-    const struct store *store = mpm->store;
-    if (store_has(store, COLUMN_MEAN_STRESS))
-        return -store->real[COLUMN_MEAN_STRESS][0][p];
-    return -(store->real[COLUMN_STRESS][0][p] + store->real[COLUMN_STRESS][1][p] + store->real[COLUMN_STRESS][2][p]) / 3;
-}
-
 double smoothing_volume(const struct mpm *mpm, size_t p)
 {
     const struct store *store = mpm->store;

@@ -461,7 +461,7 @@ static void smooth_give(struct mpm *mpm, int32_t b)
         find_weights(mpm, &chunk);
         for (int32_t j = 0; j < chunk.count; j++) {
             double volume = smoothing_volume(mpm, (size_t)chunk.order[j]);
-            double values[2] = {volume * smoothing_pressure(mpm, (size_t)chunk.order[j]), volume};
+            double values[2] = {volume * store_pressure(mpm->store, (size_t)chunk.order[j]), volume};
             give(w, j, patch, values, 2);
         }
     }

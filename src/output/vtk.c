@@ -297,8 +297,7 @@ static bool is_left_out(const struct particle_array *array, const struct store *
     return array->column == COLUMN_LOAD && !store_has(store, COLUMN_LOAD);
 }
 
-static bool write_particles(const struct vtk_series *series, const struct scene *scene, const struct result_source *source,
-                            const char *name)
+static bool write_particles(const struct scene *scene, const struct result_source *source, const char *name)
 {
     struct particle_context contexts[PARTICLE_ARRAYS];
     struct data_array arrays[PARTICLE_ARRAYS];
@@ -319,7 +318,6 @@ static bool write_particles(const struct vtk_series *series, const struct scene 
     char *part;
     bool is_binary = scene->vtk_format == VTK_BINARY || (scene->vtk_format == VTK_AUTO && count > LARGEST_TEXT);
     struct writer writer = {open_part(name, &part), is_binary, (int)scene->digits, 0};
-    (void)series;
     if (writer.stream)
         write_tree(&writer, arrays, n, &points, cells);
     return close_part(writer.stream, name, part);
@@ -361,7 +359,7 @@ bool vtk_write(struct vtk_series *series, const struct scene *scene, const struc
     series->times[series->count++] = time;
     snprintf(ending, sizeof ending, "_anim_%zu.vtu", series->count);
     char *name = file_name(series, ending);
-    bool good = write_particles(series, scene, source, name);
+    bool good = write_particles(scene, source, name);
     memory_free(name);
     return good && write_list(series);
 }

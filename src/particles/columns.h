@@ -73,6 +73,10 @@ void store_reorder(struct store *store, const int32_t *order);
 /* Bytes per particle in the columns, with index and scratch. */
 size_t store_bytes_per_particle(const struct store *store);
 
+/* Pressure of the particle at place p: of the equation of state where there is one, else minus the
+ * mean of its stress. */
+double store_pressure(const struct store *store, size_t p);
+
 static inline uint64_t column_bit(enum column column)
 {
     return (uint64_t)1 << column;

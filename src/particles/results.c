@@ -27,9 +27,7 @@ static double material(const struct result_source *s, size_t p)
 
 static double pressure(const struct result_source *s, size_t p)
 {
-    if (store_has(s->store, COLUMN_MEAN_STRESS))
-        return -REAL(s, COLUMN_MEAN_STRESS, 0);
-    return -(REAL(s, COLUMN_STRESS, 0) + REAL(s, COLUMN_STRESS, 1) + REAL(s, COLUMN_STRESS, 2)) / 3;
+    return store_pressure(s->store, p);
 }
 
 static double volume(const struct result_source *s, size_t p)
