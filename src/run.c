@@ -70,7 +70,8 @@ static enum status build(struct run *run)
     if (run->options.has_threads)
         mpm_share_always(run->mpm);
     print_diagnostics(run);
-    run->source = (struct result_source){run->mpm->store, run->mpm->material_of_body, run->mpm->material_number_of_body};
+    run->source = (struct result_source){run->mpm->store, run->mpm->material_of_body, run->mpm->material_number_of_body,
+                                         &run->mpm->cells->count, run->scene->building.shows_ghosts};
     return diagnostics_errors(run->diagnostics) > 0 ? STATUS_DECK : STATUS_FINISHED;
 }
 
@@ -150,7 +151,7 @@ static void mark_shown(struct run *run)
     const struct store *store = run->mpm->store;
     const double *const x[3] = {store->real[COLUMN_POSITION][0], store->real[COLUMN_POSITION][1],
                                 store->real[COLUMN_POSITION][2]};
-    if (run->dumps == 0) {
+    if (run->dumps == 0)
         for (size_t p = 0; p < store->count; p++) {
             const struct scene_body *body = &run->scene->bodies[store->integer[COLUMN_BODY][p]];
             bool is_in = true;
@@ -158,10 +159,8 @@ static void mark_shown(struct run *run)
                 is_in = is_in && x[a][p] >= body->plot_box[2 * a] && x[a][p] <= body->plot_box[2 * a + 1];
             run->is_shown[store->integer[COLUMN_ID][p]] = is_in;
         }
-        return;
-    }
     const struct cell_list *cells = run->mpm->cells;
-    for (int32_t k = cells->in_cells; k < cells->count; k++)
+    for (int32_t k = cells->in_cells; k < cells->count && run->dumps > 0; k++)
         run->is_shown[store->integer[COLUMN_ID][cells->order[k]]] = 0;
 }
 
@@ -219,10 +218,18 @@ enum status run_open(struct run *run, const struct run_options *options)
     return status;
 }
 
+/* Whether the last step ended the run for another reason than the end time; its state is written. */
+static bool ends_by_schedule(const struct run *run)
+{
+    return run->scene->building.settling >= 0 && building_has_settled(run->mpm);
+}
+
 bool run_goes_on(const struct run *run)
 {
     const struct scene *scene = run->scene;
     const struct sums *sums = &run->mpm->sums;
+    if (scene->building.settling >= 0)
+        return !ends_by_schedule(run);
     double time = run->mpm->time, least = fmax(scene->end_time, scene->settling[0]);
     if (run->mpm->step == 0 || time <= scene->end_time)
         return true;
@@ -249,8 +256,10 @@ static enum status write_step(struct run *run)
         run->next_report = (float)((double)run->next_report + run->scene->report_interval);
         write_report_line(run);
     }
-    if (mpm->time >= (double)run->next_output) {
-        run->next_output = (float)((double)run->next_output + run->scene->output_interval);
+    const bool is_due = mpm->time >= (double)run->next_output;
+    if (is_due || ends_by_schedule(run)) {
+        if (is_due)
+            run->next_output = (float)((double)run->next_output + run->scene->output_interval);
         status = write_dump(run);
     }
     return status;

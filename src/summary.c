@@ -56,7 +56,7 @@ void summary_instability(const struct mpm *mpm, const struct instability *instab
 
 static void print_timers(const struct mpm *mpm, const struct timers *timers, double seconds, FILE *stream)
 {
-    double updates = (double)mpm->store->count * (double)(mpm->step > 0 ? mpm->step : 1);
+    double updates = mpm->updates > 0 ? mpm->updates : 1;
     fprintf(stream, "\n  phase                  seconds       %%   ns per particle-step\n");
     for (int phase = 0; phase < PHASE_COUNT; phase++) {
         double spent = timers->seconds[phase];

@@ -23,6 +23,7 @@ static const struct limit limits[LIMIT_ROWS] = {
     [LIMIT_NORMAL] = {"0 (of both components), 1 (of the first) or 2 (of the second)", 0, 2, false, false},
     [LIMIT_DIGITS] = {"from 2 to 17", 2, 17, false, false},
     [LIMIT_FRACTION] = {"from 0 to 1", 0, 1, false, false},
+    [LIMIT_FLAG] = {"0 or 1", 0, 1, false, false},
 };
 
 int argument_count(const struct argument *arguments)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Background grid: extents, cell size, boundary codes. */
-#include "deck/reader.h"
+#include "deck/commands_process.h"
 
 #include <limits.h>
 #include <math.h>
@@ -59,6 +59,10 @@ const struct keyword grid_keywords[] = {
      .arguments = (const struct argument[]){CODE("x-"), CODE("x+"), CODE("y-"), CODE("y+"), CODE("z-"), CODE("z+"), {0}},
      .field = offsetof(struct scene, boundary),
      .doc = "boundary codes of the six faces: 0 free, 1 fixed, 2 normal component fixed"},
+    {.name = "fixn", .apply = reader_hold,
+     .doc = "holds grid nodes in a box along x, y, z (1 held, 0 free), or with `fixn cyli` in an annulus",
+     .details = "fixn x0 x1 y0 y1 z0 z1 ix iy iz\nfixn cyli axis a b r0 r1 ix iy iz   (a b: the axis in the other two coordinates, in the "
+                "order x y z)\nBoth limits count in."},
     {0}};
 
 static double cells_along(const struct scene *scene, int axis)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Loading: the load and velo blocks. */
 #include "base/memory.h"
-#include "deck/reader.h"
+#include "deck/commands_process.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -187,6 +187,14 @@ const struct keyword loading_keywords[] = {
      .field = offsetof(struct scene, settling),
      .doc = "with QuLo: the run ends between these times, when the kinetic energy is below 0.5 % (100, and ten times "
             "the larger of it and endt)"},
+    {.name = "resi", .arguments = reader_residual_arguments, .apply = reader_residual,
+     .doc = "residual stress of a material in the plane of a layer, along the scan, across it, shear; internal forces take "
+            "stress less this one, so that with negative numbers a free part contracts"},
+    {.name = "phas", .arguments = reader_phase_arguments, .apply = reader_phase,
+     .doc = "phase transformation: volume strain (before - after)/after of a material, from its opening on"},
+    {.name = "ther", .arguments = reader_heat_arguments, .apply = reader_heat,
+     .doc = "hot sphere around the particle that opened last: strain expansion times difference within the radius; `heat` "
+            "(default) or `cool` behind it"},
     {0}};
 
 static void check_particle(struct reader *reader, long particle, struct deck_place place)

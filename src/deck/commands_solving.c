@@ -185,6 +185,18 @@ static void read_kinetic_damping(struct reader *reader, const struct deck_word *
     reader->scene->kinetic_damping = true;
 }
 
+static void note_mass_scale(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)values;
+    reader->mass_scale_place = word->place;
+}
+
+static void note_fixed_step(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)values;
+    reader->fixed_step_place = word->place;
+}
+
 const struct keyword solving_keywords[] = {
     {.name = "endt", .long_name = "endtime",
      .arguments = (const struct argument[]){{"time", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
@@ -207,6 +219,14 @@ const struct keyword solving_keywords[] = {
     {.name = "Damp",
      .arguments = (const struct argument[]){{"rate", "1/time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
      .field = offsetof(struct scene, damping), .doc = "damping force -rate * mass * velocity on each particle"},
+    {.name = "ndam", .arguments = (const struct argument[]){{"factor", "force*time/length", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
+     .field = offsetof(struct scene, nodal_damping),
+     .doc = "damping force -factor * velocity on each grid node, whatever its mass; stable for any factor"},
+    {.name = "mscl", .arguments = (const struct argument[]){{"factor", NULL, ARGUMENT_REAL, LIMIT_POSITIVE}, {0}},
+     .field = offsetof(struct scene, mass_scale), .apply = note_mass_scale,
+     .doc = "all masses times a factor, for larger steps where inertia does not matter; weight stays (1)"},
+    {.name = "dtfx", .arguments = (const struct argument[]){{"step", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
+     .field = offsetof(struct scene, fixed_step), .apply = note_fixed_step, .doc = "fixed time step in place of dtsc, checked against the stable one; 0: none"},
     {.name = "drda", .apply = read_kinetic_damping,
      .doc = "kinetic damping: velocities are set to zero whenever the kinetic energy falls"},
     {.name = "xfer", .long_name = "transfer",

@@ -248,14 +248,86 @@ static void echo_output(const struct scene *scene, FILE *stream)
     }
 }
 
+/* Whole ranges of one state, as GPD has them. */
+static void echo_building(const struct scene *scene, FILE *stream)
+{
+    const struct scene_building *building = &scene->building;
+    for (size_t i = 0; i < building->n_ghosts || (i == 0 && building->has_ghosts); i++) {
+        if (i == 0)
+            fprintf(stream, "Ghost\n");
+        if (i < building->n_ghosts)
+            fprintf(stream, "  GPD %ld %ld %d\n", building->ghosts[i].first + 1, building->ghosts[i].last + 1, building->ghosts[i].is_open);
+    }
+    if (building->has_ghosts)
+        fprintf(stream, "endG\n");
+    if (building->shows_ghosts)
+        fprintf(stream, "ghos show\n");
+    if (building->opening == OPENING_ALL)
+        fprintf(stream, "open all\n");
+    else if (building->opening == OPENING_LAYERS)
+        fprintf(stream, "open layer every %ld\n", building->interval);
+    else if (building->opening == OPENING_POINTS)
+        fprintf(stream, "open group %ld every %ld\n", building->group, building->interval);
+    if (building->settling >= 0)
+        fprintf(stream, "open settle %ld\n", building->settling);
+    if (building->until >= 0)
+        fprintf(stream, "open until %ld\n", building->until + 1);
+    if (building->axis != 2 || building->thickness > 0) {
+        fprintf(stream, "buil %c", "xyz"[building->axis]);
+        print_numbers(stream, &building->thickness, building->thickness > 0);
+        fprintf(stream, "\n");
+    }
+    if (building->order == SCAN_RASTER || building->n_angles > 0) {
+        fprintf(stream, "scan %s%s", building->order == SCAN_RASTER ? "raster" : "deck", building->is_serpentine ? " serpentine" : "");
+        print_numbers(stream, building->angles, (int)building->n_angles);
+        fprintf(stream, "\n");
+    }
+}
+
+static void echo_transformations(const struct scene *scene, FILE *stream)
+{
+    for (size_t i = 0; i < scene->n_materials; i++) {
+        const struct scene_transformation *t = &scene->materials[i].transformation;
+        const int number = (int)i + 1;
+        if (t->has_residual)
+            fprintf(stream, "resi %d", number), print_line(stream, "", t->residual, 3);
+        if (t->has_phase)
+            fprintf(stream, "phas %d", number), print_line(stream, "", t->phase_densities, 2);
+        if (t->has_heat) {
+            fprintf(stream, "ther %d", number);
+            print_numbers(stream, (double[]){t->expansion, t->temperature, t->radius}, 3);
+            fprintf(stream, " %s\n", t->cools ? "cool" : "heat");
+        }
+    }
+}
+
+static void echo_holds(const struct scene *scene, FILE *stream)
+{
+    for (size_t i = 0; i < scene->n_holds; i++) {
+        const struct scene_hold *hold = &scene->holds[i];
+        fprintf(stream, "fixn");
+        if (hold->is_annulus) {
+            fprintf(stream, " cyli %c", "xyz"[hold->axis]);
+            print_numbers(stream, hold->centre, 2);
+            print_numbers(stream, hold->radius, 2);
+        } else {
+            print_numbers(stream, hold->box, 6);
+        }
+        fprintf(stream, " %d %d %d\n", hold->holds[0], hold->holds[1], hold->holds[2]);
+    }
+}
+
 void echo_scene(const struct scene *scene, FILE *stream, bool whole)
 {
     fprintf(stream, "%s%s\n", strncasecmp(scene->title, "mpm3", 4) == 0 ? "" : "mpm3d ", scene->title);
     echo_plain(scene, stream, CATEGORY_GENERAL);
     echo_plain(scene, stream, CATEGORY_GRID);
+    echo_holds(scene, stream);
     echo_solving(scene, stream);
     echo_materials(scene, stream);
     echo_bodies(scene, stream, whole);
+    echo_building(scene, stream);
+    echo_transformations(scene, stream);
     echo_loads(scene, stream, whole);
     echo_velocities(scene, stream, whole);
     echo_output(scene, stream);

@@ -96,6 +96,8 @@ static void print_below(FILE *stream, const char *name)
         print_table(stream, load_keywords);
     else if (strcmp(name, "velo") == 0)
         print_table(stream, velocity_keywords);
+    else if (strcmp(name, "Ghos") == 0)
+        print_table(stream, ghost_keywords);
     else if (strcmp(name, "outr") == 0 || strcmp(name, "curv") == 0)
         print_results(stream);
 }
@@ -194,6 +196,7 @@ void help_manual(FILE *stream)
         manual_keywords(stream, keyword_category_title((enum category)c), keyword_table((enum category)c));
     manual_keywords(stream, "Kinds of load", load_keywords);
     manual_keywords(stream, "Kinds of velo", velocity_keywords);
+    manual_keywords(stream, "Words of Ghost", ghost_keywords);
     manual_head(stream, "Laws of mate");
     for (const struct law *const *law = law_rows(); *law; law++)
         manual_row(stream, (*law)->name, (*law)->doc, (*law)->parameters, (*law)->later);

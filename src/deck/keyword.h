@@ -51,8 +51,8 @@ struct keyword {
 const struct keyword *keyword_table(enum category category);
 const char *keyword_category_title(enum category category);
 
-/* Tables of the sub-blocks of load and velo, ended by a row without name. */
-extern const struct keyword load_keywords[], velocity_keywords[];
+/* Tables of the sub-blocks of load, velo and Ghost, ended by a row without name. */
+extern const struct keyword load_keywords[], velocity_keywords[], ghost_keywords[];
 
 /* The row in `table` whose first four characters agree with a NUL-ended word, or NULL. */
 const struct keyword *keyword_in(const struct keyword *table, const char *word);

@@ -125,12 +125,22 @@ bool reader_word(struct reader *reader, struct deck_word *word, const char *what
     return false;
 }
 
+/* The block that a word ends, or NULL. */
+static const char *ended_block(const char *text)
+{
+    static const char *const ends[][2] = {{"endl", "load"}, {"endv", "velo"}, {"endg", "Ghost"}};
+    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++)
+        if (strncasecmp(text, ends[i][0], 4) == 0)
+            return ends[i][1];
+    return NULL;
+}
+
 bool reader_is_keyword(const struct deck_word *word)
 {
     char text[SHOWN];
     text_copy(word, text, sizeof text);
     return keyword_find(text, NULL) || keyword_in(load_keywords, text) || keyword_in(velocity_keywords, text)
-        || strncasecmp(text, "endl", 4) == 0 || strncasecmp(text, "endv", 4) == 0;
+        || keyword_in(ghost_keywords, text) || ended_block(text);
 }
 
 /* Whether a word is a command in its full spelling; a file or a name may begin like one. */
@@ -499,9 +509,9 @@ static void unknown_command(struct reader *reader, const struct deck_word *word,
         unexpected_number(reader, word, "a keyword", reader->command);
         return;
     }
-    if (strncasecmp(text, "endl", 4) == 0 || strncasecmp(text, "endv", 4) == 0) {
+    if (ended_block(text)) {
         diagnostics_error(reader->diagnostics, word->place, "'%.4s' ends no block; expected '%s' before it", text,
-                          strncasecmp(text, "endl", 4) == 0 ? "load" : "velo");
+                          ended_block(text));
         return;
     }
     const char *nearest = keyword_nearest_top(text);
@@ -528,6 +538,7 @@ static void finish(struct reader *reader)
     reader_finish_materials(reader);
     reader_finish_targets(reader);
     reader_finish_solving(reader);
+    reader_finish_process(reader);
     reader_finish_general(reader, end);
 }
 

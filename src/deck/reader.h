@@ -31,6 +31,7 @@ struct reader {
     uint64_t missing[CATEGORY_COUNT]; /* words reported as missing, like scene.given */
     struct deck_place output_interval_place, bodies_place, particles_place, materials_place;
     struct deck_place cell_place, contact_place, interpolation_place, total_place, transfer_place, averaging_place, span_place[3];
+    struct deck_place mass_scale_place, fixed_step_place;
 };
 
 /* Reads the deck from `text` into a new scene. Mistakes go to `diagnostics`; when there are any
@@ -99,5 +100,6 @@ void reader_finish_grid(struct reader *reader, struct deck_place end);
 void reader_finish_materials(struct reader *reader);
 void reader_finish_targets(struct reader *reader);
 void reader_finish_solving(struct reader *reader);
+void reader_finish_process(struct reader *reader);
 
 #endif

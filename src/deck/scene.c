@@ -16,6 +16,8 @@ struct scene *scene_open(void)
     scene->flip_share = 1;
     scene->settling[0] = 100;
     scene->settling[1] = 0;
+    scene->mass_scale = 1;
+    scene->building = (struct scene_building){.settling = -1, .until = -1, .axis = 2};
     return scene;
 }
 
@@ -34,5 +36,8 @@ void scene_close(struct scene *scene)
     memory_free(scene->detonations);
     memory_free(scene->results);
     memory_free(scene->curves);
+    memory_free(scene->building.ghosts);
+    memory_free(scene->building.angles);
+    memory_free(scene->holds);
     memory_free(scene);
 }

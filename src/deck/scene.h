@@ -13,10 +13,21 @@
 enum scheme { SCHEME_USF, SCHEME_USL, SCHEME_MUSL };
 enum rotation { ROTATION_OFF, ROTATION_EXPLICIT, ROTATION_EXACT };
 
+/* Residual stress and transformation strains of a material that is built up (resi, phas, ther). */
+struct scene_transformation {
+    bool has_residual, has_phase, has_heat;
+    double residual[3];       /* along the scan, across it, shear; internal forces take stress less this */
+    double phase_densities[2]; /* before and after */
+    double expansion, temperature, radius; /* strain is expansion times temperature within the radius */
+    bool cools;               /* the zone shrinks instead */
+    struct deck_place residual_place, phase_place, heat_place;
+};
+
 struct scene_material {
     struct material material;
     bool is_given;
     struct deck_place place;
+    struct scene_transformation transformation;
 };
 
 struct scene_body {
@@ -63,6 +74,44 @@ struct scene_point {
     double position[3];
 };
 
+/* Particles that are closed at the start (Ghost), and how they open (open, buil, scan). */
+enum opening { OPENING_NONE, OPENING_POINTS, OPENING_LAYERS, OPENING_ALL };
+enum scan_order { SCAN_DECK, SCAN_RASTER };
+
+struct scene_ghost {
+    long first, last; /* ids */
+    bool is_open;
+    struct deck_place place;
+};
+
+struct scene_building {
+    bool has_ghosts, shows_ghosts;
+    struct scene_ghost *ghosts;
+    size_t n_ghosts, ghosts_capacity;
+    enum opening opening;
+    long group;      /* OPENING_POINTS: particles at a time */
+    long interval;   /* steps from one opening to the next */
+    long settling;   /* steps after the last opening; -1: up to endt */
+    long until;      /* id of the last particle to open; -1: all */
+    int axis;        /* build direction */
+    double thickness; /* of a layer; 0: particles at one height are a layer */
+    enum scan_order order;
+    bool is_serpentine;
+    double *angles;  /* of layer 1, 2, ... in turn, degrees */
+    size_t n_angles, angles_capacity;
+    struct deck_place ghost_place, open_place, build_place, scan_place, until_place, settling_place;
+};
+
+/* Grid nodes whose velocity is zero along some axes: in a box, or in an annulus around an axis. */
+struct scene_hold {
+    bool is_annulus;
+    int axis;
+    double box[6];    /* x0 x1 y0 y1 z0 z1 */
+    double centre[2]; /* of the annulus, in the two other coordinates in the order x y z */
+    double radius[2];
+    bool holds[3];
+};
+
 struct scene_curve {
     const struct result *result;
     long particle;     /* id; unused when near */
@@ -100,6 +149,9 @@ struct scene {
     double bulk[2]; /* artificial viscosity: quadratic, linear */
     double damping; /* mass proportional, 1/time */
     bool kinetic_damping;
+    double nodal_damping;    /* ndam: force per velocity on each node */
+    double mass_scale;       /* mscl */
+    double fixed_step;       /* dtfx; 0: the stable one */
     bool sorts;
     bool writes_animation, writes_vtk, smooths_pressure, bare_names, bare_headers;
     enum vtk_format vtk_format;
@@ -120,6 +172,9 @@ struct scene {
     size_t n_results, results_capacity;
     struct scene_curve *curves; /* after engk and engi */
     size_t n_curves, curves_capacity;
+    struct scene_building building;
+    struct scene_hold *holds;
+    size_t n_holds, holds_capacity;
 };
 
 /* An empty scene with the defaults of the dialect. */

@@ -2,7 +2,9 @@
 #include "mpm/grid.h"
 #include "base/memory.h"
 #include "base/threads.h"
+#include "deck/scene.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Fewer blocks than this are not worth a second thread. */
@@ -70,7 +72,43 @@ void grid_close(struct grid *grid)
     memory_free(grid->patch);
     memory_free(grid->fixed);
     memory_free(grid->nothing);
+    memory_free(grid->damped);
     memory_free(grid);
+}
+
+void grid_hold(struct grid *grid, const struct scene_hold *holds, size_t n_holds)
+{
+    grid->holds = holds;
+    grid->n_holds = n_holds;
+}
+
+/* Whether a place belongs to what is held; its limits do, give or take the round-off of a lattice. */
+static bool is_held(const struct scene_hold *hold, const double place[3], double tolerance)
+{
+    if (hold->is_annulus) {
+        const int first = hold->axis == 0 ? 1 : 0, second = hold->axis == 2 ? 1 : 2;
+        const double r = hypot(place[first] - hold->centre[0], place[second] - hold->centre[1]);
+        return r >= hold->radius[0] - tolerance && r <= hold->radius[1] + tolerance;
+    }
+    for (int a = 0; a < 3; a++)
+        if (place[a] < hold->box[2 * a] - tolerance || place[a] > hold->box[2 * a + 1] + tolerance)
+            return false;
+    return true;
+}
+
+/* Directions in which the deck holds a node. */
+static uint8_t held_directions(const struct grid *grid, const int32_t node[3])
+{
+    const struct cell_frame *frame = &grid->cells->frame;
+    double place[3];
+    uint8_t held = 0;
+    for (int a = 0; a < 3; a++)
+        place[a] = frame->low[a] + node[a] * frame->size;
+    for (size_t i = 0; i < grid->n_holds; i++)
+        if (is_held(&grid->holds[i], place, 1e-6 * frame->size))
+            for (int a = 0; a < 3; a++)
+                held |= (uint8_t)(grid->holds[i].holds[a] << a);
+    return held;
 }
 
 /* Fixed directions of a node by the codes of the faces that it lies on (spec 4.3). */
@@ -89,7 +127,7 @@ static uint8_t fixed_directions(const struct grid *grid, const int32_t node[3])
         else if (grid->boundary[face] == 2)
             fixed |= (uint8_t)(1 << axis);
     }
-    return fixed;
+    return grid->n_holds > 0 ? fixed | held_directions(grid, node) : fixed;
 }
 
 /* An array with room for `needed` numbers; there is nothing to keep between steps. */
@@ -111,6 +149,8 @@ void grid_follow(struct grid *grid)
     size_t blocks = (size_t)cells->n_blocks;
     grid->node = replace(grid->node, &grid->node_capacity, blocks * (size_t)grid->fields * BLOCK_CELLS);
     grid->patch = replace(grid->patch, &grid->patch_capacity, (size_t)cells->active * (size_t)grid->patch_fields * (size_t)grid->layout.nodes);
+    if (grid->damping > 0)
+        grid->damped = memory_grow(grid->damped, &grid->damped_capacity, blocks, sizeof *grid->damped, "grid nodes");
     grid->fixed = memory_grow(grid->fixed, &grid->fixed_capacity, blocks * BLOCK_CELLS, 1, "grid nodes");
 #pragma omp parallel for schedule(static)
     for (size_t b = 0; b < blocks; b++)
@@ -198,6 +238,39 @@ void grid_integrate_momentum(struct grid *grid, int first, int count, double ste
     }
 }
 
+/* Damping force -c v on each node (thesis 4.21), v that after the step: velocity and acceleration, which
+ * are those without it, change. */
+THREADS_VECTORISED
+static void damp_block(struct grid *grid, int32_t b, double step)
+{
+    const double *restrict mass = grid_field(grid, b, NODE_MASS);
+    const double impulse = grid->damping * step;
+    double left[BLOCK_CELLS], work[BLOCK_CELLS] = {0}, energy = 0;
+    for (int n = 0; n < BLOCK_CELLS; n++)
+        left[n] = mass[n] / (mass[n] + impulse);
+    for (int a = 0; a < 3; a++) {
+        double *restrict velocity = grid_field(grid, b, NODE_MOMENTUM + a);
+        double *restrict acceleration = grid_field(grid, b, NODE_FORCE + a);
+        for (int n = 0; n < BLOCK_CELLS; n++) {
+            double before = velocity[n] - acceleration[n] * step, after = velocity[n] * left[n];
+            work[n] += after * (before + after);
+            acceleration[n] += (after - velocity[n]) / step;
+            velocity[n] = after;
+        }
+    }
+    for (int n = 0; n < BLOCK_CELLS; n++)
+        energy += work[n];
+    grid->damped[b] = 0.5 * impulse * energy;
+}
+
+double grid_damped_energy(const struct grid *grid)
+{
+    double energy = 0;
+    for (int32_t b = 0; b < grid->cells->n_blocks && grid->damping > 0; b++)
+        energy += grid->damped[b];
+    return energy;
+}
+
 THREADS_VECTORISED
 static void divide_block(struct grid *grid, int32_t b)
 {
@@ -210,16 +283,19 @@ static void divide_block(struct grid *grid, int32_t b)
     }
 }
 
-void grid_divide(struct grid *grid)
+void grid_divide(struct grid *grid, double step)
 {
     const int32_t blocks = grid->cells->n_blocks;
 #pragma omp parallel for schedule(static) if (blocks >= grid->shared_blocks)
-    for (int32_t b = 0; b < blocks; b++)
+    for (int32_t b = 0; b < blocks; b++) {
         divide_block(grid, b);
+        if (grid->damping > 0)
+            damp_block(grid, b, step);
+    }
 }
 
 THREADS_VECTORISED
-void grid_integrate_block(struct grid *grid, int32_t b, double step)
+static void integrate_block(struct grid *grid, int32_t b, double step)
 {
     const double *restrict mass = grid_field(grid, b, NODE_MASS);
     const uint8_t *restrict fixed = grid->fixed + (size_t)b * BLOCK_CELLS;
@@ -236,6 +312,13 @@ void grid_integrate_block(struct grid *grid, int32_t b, double step)
             force[n] = moves ? force[n] / divisor : 0;
         }
     }
+}
+
+void grid_integrate_block(struct grid *grid, int32_t b, double step)
+{
+    integrate_block(grid, b, step);
+    if (grid->damping > 0)
+        damp_block(grid, b, step);
 }
 
 void grid_integrate(struct grid *grid, int first, int count, double step)

@@ -37,12 +37,17 @@ struct patch_layout {
     struct patch_row rows[160];
 };
 
+struct scene_hold;
+
 struct grid {
     const struct cell_list *cells;
     int32_t nodes[3];
     long boundary[6];
     int boundary_layers; /* the codes act on this many outermost node layers */
     double mass_cutoff;
+    double damping; /* force per velocity on each node */
+    const struct scene_hold *holds; /* of the scene */
+    size_t n_holds;
     double *node;   /* [block][fields][64] */
     double *patch;  /* [active block][patch_fields][layout.nodes]: what its particles give to nodes */
     struct patch_layout layout;
@@ -50,7 +55,8 @@ struct grid {
     int32_t shared_blocks;    /* fewer blocks than this are not worth a second thread */
     uint8_t *fixed; /* [block][64], bits 1 2 4 for x y z */
     double *nothing; /* zeros in place of the nodes or the patch of a block that is missing */
-    size_t node_capacity, patch_capacity, fixed_capacity;
+    double *damped; /* per block: energy that nodal damping took; NULL without damping */
+    size_t node_capacity, patch_capacity, fixed_capacity, damped_capacity;
     long version;
 };
 
@@ -64,6 +70,12 @@ struct grid_form {
 
 struct grid *grid_open(const struct cell_list *cells, struct grid_form form, const long boundary[6], double mass_cutoff);
 void grid_close(struct grid *grid);
+
+/* Nodes that the deck holds, besides those of the boundary codes. */
+void grid_hold(struct grid *grid, const struct scene_hold *holds, size_t n_holds);
+
+/* Energy that nodal damping took in the last integration. */
+double grid_damped_energy(const struct grid *grid);
 
 /* Follows a change of the blocks of the cell list. */
 void grid_follow(struct grid *grid);
@@ -99,13 +111,13 @@ void grid_collect(struct grid *grid, int32_t block, int first, int count, int fr
  * and go on with each block at once. */
 
 /* Spec 6 D: P += F step, zero in fixed directions; then velocity and acceleration of the nodes
- * above the cutoff, zero elsewhere. */
+ * above the cutoff, zero elsewhere; with nodal damping. */
 void grid_integrate(struct grid *grid, int first, int count, double step);
 
 /* The same in two parts, with room for contact between them: momentum and force as such, and their
  * division by the mass. The last three of the fields summed are the normals. */
 void grid_integrate_momentum(struct grid *grid, int first, int count, double step);
-void grid_divide(struct grid *grid);
+void grid_divide(struct grid *grid, double step);
 
 /* Straining velocity from the momentum fields at `first` + 0, 1, 2 of those summed (the mass comes
  * first when it is among them), zero in fixed directions. */

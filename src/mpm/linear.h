@@ -58,6 +58,8 @@ static inline double mean_stress_of(const struct mpm *mpm, const int32_t *order,
     for (int32_t k = 0; k < count; k++) {
         const int32_t p = order[k];
         double mean = (store->real[COLUMN_STRESS][0][p] + store->real[COLUMN_STRESS][1][p] + store->real[COLUMN_STRESS][2][p]) / 3;
+        if (store->real[COLUMN_RESIDUAL][0])
+            mean -= (store->real[COLUMN_RESIDUAL][0][p] + store->real[COLUMN_RESIDUAL][1][p] + store->real[COLUMN_RESIDUAL][2][p]) / 3;
         sum += store->real[COLUMN_VOLUME][0][p] * (mean - store->real[COLUMN_VISCOUS_PRESSURE][0][p]);
         volume += store->real[COLUMN_VOLUME][0][p];
     }

@@ -12,6 +12,8 @@ struct diagnostics;
 struct workspace;
 struct face_load;
 struct contact;
+struct schedule;
+struct heat;
 
 /* Sums over particles, per block and in all. */
 struct sums {
@@ -82,6 +84,11 @@ struct mpm {
     struct sums *block_sums;
     size_t block_sums_capacity;
     struct timers *timers;
+    struct schedule *schedule; /* of particles that open, or NULL */
+    struct heat *heat;         /* the hot zone around the last one, or NULL */
+    size_t n_open;             /* particles that are open at the start */
+    bool *is_material_open;    /* per material: its wave speed limits the step */
+    double updates;            /* particles that took part, summed over steps */
 
     long step;
     double time;
@@ -108,6 +115,9 @@ void mpm_share_always(struct mpm *mpm);
 
 /* One step. */
 void mpm_step(struct mpm *mpm);
+
+/* The time step that `dtfx` or the wave speeds allow (spec 5), with particles of some speed. */
+double mpm_stable_step(const struct mpm *mpm, double fastest);
 
 /* Why the last step can't be trusted. */
 struct instability {
@@ -165,7 +175,26 @@ THREADS_INLINE void mpm_force_stress(const struct mpm *mpm, size_t p, double t[3
     t[1][2] = t[2][1] = scale * store->real[COLUMN_STRESS][3][p];
     t[0][2] = t[2][0] = scale * store->real[COLUMN_STRESS][4][p];
     t[0][1] = t[1][0] = scale * store->real[COLUMN_STRESS][5][p];
+    if (store->real[COLUMN_RESIDUAL][0]) {
+        for (int a = 0; a < 3; a++)
+            t[a][a] -= scale * store->real[COLUMN_RESIDUAL][a][p];
+        t[1][2] = t[2][1] -= scale * store->real[COLUMN_RESIDUAL][3][p];
+        t[0][2] = t[2][0] -= scale * store->real[COLUMN_RESIDUAL][4][p];
+        t[0][1] = t[1][0] -= scale * store->real[COLUMN_RESIDUAL][5][p];
+    }
 }
+
+/* Parts that are built up. Opening finds the layers, and the memory order in which open particles come
+ * first; mistakes that only show then go to `diagnostics`. */
+void building_open(struct mpm *mpm, struct diagnostics *diagnostics);
+void building_close(struct mpm *mpm);
+/* What is due at the start of a step (from 1): opens particles and moves the hot zone. Returns whether
+ * particles opened. */
+bool building_step(struct mpm *mpm, long step);
+/* The next step at which something is due; 0 when the build is complete. */
+long building_next_step(const struct mpm *mpm);
+/* Whether `open settle` ends the run. */
+bool building_has_settled(const struct mpm *mpm);
 
 /* Face tractions (load face). */
 void faces_open(struct mpm *mpm);

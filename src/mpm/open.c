@@ -4,6 +4,7 @@
 #include "base/threads.h"
 #include "deck/diagnostics.h"
 #include "mpm/chunk.h"
+#include "process/transformation.h"
 
 #include <float.h>
 #include <math.h>
@@ -38,6 +39,8 @@ static uint64_t wanted_columns(const struct scene *scene)
         wanted |= column_bit(COLUMN_AFFINE);
     if (scene->writes_vtk)
         wanted |= column_bit(COLUMN_INITIAL_POSITION);
+    if (transformation_has_residual(scene))
+        wanted |= column_bit(COLUMN_RESIDUAL) | column_bit(COLUMN_LAYER);
     if (scene->is_total)
         wanted |= column_bit(COLUMN_FIRST_STRESS) | column_bit(COLUMN_INITIAL_POSITION);
     return wanted;
@@ -77,7 +80,7 @@ static void fill_particle(void *context, const double position[3], double mass)
         if (store_has(store, COLUMN_INITIAL_POSITION))
             store->real[COLUMN_INITIAL_POSITION][a][p] = position[a];
     }
-    store->real[COLUMN_MASS][0][p] = mass;
+    store->real[COLUMN_MASS][0][p] = mass * filling->scene->mass_scale;
     store->real[COLUMN_VOLUME][0][p] = mass / filling->material->density;
     if (store_has(store, COLUMN_YIELD_STRESS))
         store->real[COLUMN_YIELD_STRESS][0][p] = filling->material->yield_stress;
@@ -169,7 +172,8 @@ static void apply_loads(struct mpm *mpm)
             continue;
         mpm->has_external_force = true;
         if (load->kind == LOAD_GRAVITY) {
-            memcpy(mpm->bodies[load->target].gravity, load->value, sizeof load->value);
+            for (int a = 0; a < 3; a++) /* weight is that of the true mass */
+                mpm->bodies[load->target].gravity[a] = load->value[a] / scene->mass_scale;
             continue;
         }
         const struct scene_body *body = load->kind == LOAD_BODY ? &scene->bodies[load->target] : NULL;
@@ -219,6 +223,7 @@ static void create_cells(struct mpm *mpm)
 {
     const struct scene *scene = mpm->scene;
     mpm->cells = cell_list_open(frame_of(scene), mpm->component_of_body, mpm->store->count, mpm->shape->reach);
+    mpm->cells->count = (int32_t)mpm->n_open;
     cell_list_build(mpm->cells, mpm->store);
     if (scene->sorts)
         cell_list_sort(mpm->cells, mpm->store);
@@ -230,6 +235,8 @@ static void create_cells(struct mpm *mpm)
         .boundary_layers = mpm->shape->reach > 0 ? 2 : 1,
     };
     mpm->grid = grid_open(mpm->cells, form, scene->boundary, scene->mass_cutoff);
+    grid_hold(mpm->grid, scene->holds, scene->n_holds);
+    mpm->grid->damping = scene->nodal_damping;
     grid_follow(mpm->grid);
     if (mpm->shape->open_centres) {
         mpm->centres = mpm->shape->open_centres(mpm);
@@ -248,7 +255,7 @@ static void warn_of_outsiders(const struct mpm *mpm, struct diagnostics *diagnos
         const struct scene_body *body = &scene->bodies[b];
         long outside = 0;
         for (long id = body->first; id < body->first + body->count; id++)
-            outside += mpm->cells->cell[store->index_of_id[id]] == CELL_NONE;
+            outside += store->index_of_id[id] < mpm->cells->count && mpm->cells->cell[store->index_of_id[id]] == CELL_NONE;
         if (outside > 0)
             diagnostics_warning(diagnostics, body->place, "%ld of the %ld particles of this body lie outside the grid", outside,
                                 body->count);
@@ -269,7 +276,7 @@ static void find_near_particles(struct mpm *mpm, struct scene *scene, struct dia
             for (long id = scene->bodies[b].first; id < scene->bodies[b].first + scene->bodies[b].count; id++) {
                 double farthest = 0;
                 for (int a = 0; a < 3; a++)
-                    farthest = fmax(farthest, fabs(store->real[COLUMN_POSITION][a][id] - curve->point[a]));
+                    farthest = fmax(farthest, fabs(store->real[COLUMN_POSITION][a][store->index_of_id[id]] - curve->point[a]));
                 if (farthest <= scene->cell_size / 4) {
                     curve->particle = id;
                     break;
@@ -288,10 +295,7 @@ static void start_sums(struct mpm *mpm)
     mpm->previous_kinetic = mpm->sums.kinetic;
     for (int a = 0; a < 3; a++)
         mpm->start_momentum[a] = mpm->sums.momentum[a];
-    double smallest = DBL_MAX; /* the first step leaves the particles' speed out (spec 5) */
-    for (size_t i = 0; i < mpm->scene->n_materials; i++)
-        smallest = fmin(smallest, mpm->scene->cell_size / mpm->scene->materials[i].material.wave_speed);
-    mpm->time_step = mpm->first_time_step = mpm->scene->step_scale * smallest;
+    mpm->time_step = mpm->first_time_step = mpm_stable_step(mpm, 0); /* without the particles' speed (spec 5) */
 }
 
 struct mpm *mpm_open(struct scene *scene, struct timers *timers, struct diagnostics *diagnostics)
@@ -315,6 +319,7 @@ struct mpm *mpm_open(struct scene *scene, struct timers *timers, struct diagnost
     create_particles(mpm);
     apply_velocities(mpm);
     apply_loads(mpm);
+    building_open(mpm, diagnostics);
     find_near_particles(mpm, scene, diagnostics);
     create_cells(mpm);
     warn_of_outsiders(mpm, diagnostics);
@@ -338,6 +343,7 @@ void mpm_close(struct mpm *mpm)
 {
     if (!mpm)
         return;
+    building_close(mpm);
     faces_close(mpm);
     contact_close(mpm);
     grid_close(mpm->grid);

@@ -197,6 +197,18 @@ static void update_total(const struct mpm *mpm, const struct chunk *chunk, const
     }
 }
 
+/* Work of the residual stress, which internal forces leave out. */
+static double residual_work(const struct mpm *mpm, const struct chunk *chunk, const struct law_batch *batch)
+{
+    double work = 0;
+    for (int a = 0; a < 6; a++) {
+        const double *residual = mpm->store->real[COLUMN_RESIDUAL][a];
+        for (int32_t j = 0; j < chunk->count; j++)
+            work += 0.5 * (batch->volume[j] + batch->volume_before[j]) * residual[chunk->order[j]] * batch->strain[a][j];
+    }
+    return work;
+}
+
 void stress_update(struct mpm *mpm, const struct chunk *chunk)
 {
     struct sums *sums = &mpm->block_sums[chunk->block_index];
@@ -217,5 +229,7 @@ void stress_update(struct mpm *mpm, const struct chunk *chunk)
     }
     sums->internal += energy;
     sums->least_volume = least;
+    if (mpm->store->real[COLUMN_RESIDUAL][0])
+        sums->work += residual_work(mpm, chunk, &batch);
     close_batch(mpm, chunk, &batch);
 }

@@ -62,9 +62,10 @@ static void solve_on_grid(struct mpm *mpm)
     } else {
         grid_integrate_momentum(mpm->grid, first, count + 3, step);
         contact_resolve(mpm);
-        grid_divide(mpm->grid);
+        grid_divide(mpm->grid, step);
     }
     mpm->external_work += faces_work(mpm);
+    mpm->removed_energy += grid_damped_energy(mpm->grid);
 }
 
 /* Steps 6 and 7: particle velocities; for USF positions too; for MUSL the new momentum goes to
@@ -176,13 +177,14 @@ static void balance_energy(struct mpm *mpm, const struct sums *before, double wo
     mpm->unbalanced = kinetic + internal + mpm->removed_energy - mpm->start_energy - work_before;
 }
 
-/* Step size of the next step (spec 5). */
-static double next_time_step(const struct mpm *mpm)
+double mpm_stable_step(const struct mpm *mpm, double fastest)
 {
+    if (mpm->scene->fixed_step > 0)
+        return mpm->scene->fixed_step;
     double smallest = DBL_MAX;
     for (size_t i = 0; i < mpm->scene->n_materials; i++) {
-        double step = mpm->scene->cell_size / (mpm->scene->materials[i].material.wave_speed + mpm->sums.fastest);
-        smallest = step < smallest ? step : smallest;
+        double step = mpm->scene->cell_size / (mpm->scene->materials[i].material.wave_speed + fastest);
+        smallest = step < smallest && mpm->is_material_open[i] ? step : smallest;
     }
     return mpm->scene->step_scale * smallest;
 }
@@ -202,10 +204,13 @@ static void damp_kinetic(struct mpm *mpm)
 
 void mpm_step(struct mpm *mpm)
 {
+    if (building_step(mpm, mpm->step + 1))
+        mpm->time_step = mpm_stable_step(mpm, mpm->sums.fastest);
     const int32_t blocks = mpm->cells->active, frozen_from = mpm->cells->in_cells;
     const struct sums before = mpm->sums;
     const double work_before = mpm->external_work;
     mpm->step++;
+    mpm->updates += mpm->cells->count;
     mpm->time += mpm->time_step;
     mpm->momentum_factor = mpm->step == 1 ? 0.5 : 1;
     mpm->load_factor = mpm->scene->loading_time > 0 ? fmin(1, mpm->time / mpm->scene->loading_time) : 1;
@@ -222,7 +227,7 @@ void mpm_step(struct mpm *mpm)
     balance_energy(mpm, &before, work_before);
     discard_grid(mpm);
     timers_enter(mpm->timers, PHASE_SUMS);
-    mpm->time_step = next_time_step(mpm);
+    mpm->time_step = mpm_stable_step(mpm, mpm->sums.fastest);
     if (mpm->scene->kinetic_damping)
         damp_kinetic(mpm);
     timers_enter(mpm->timers, PHASE_OTHER);

@@ -38,7 +38,7 @@ static void write_zone(struct table *table, const struct scene *scene, const str
 {
     size_t rows = 0;
     for (long id = first; id < last; id++)
-        rows += is_shown[id] != 0;
+        rows += is_shown[id] && result_is_shown(source, (size_t)source->store->index_of_id[id]);
     fprintf(table->stream, scene->bare_headers ? "ZONE T=\"time %10.3E" : "ZONE T=\"time %.3E", time);
     if (body > 0)
         fprintf(table->stream, " body %ld", body);
@@ -47,7 +47,7 @@ static void write_zone(struct table *table, const struct scene *scene, const str
     else
         fprintf(table->stream, "\"\n");
     for (long id = first; id < last; id++)
-        if (is_shown[id])
+        if (is_shown[id] && result_is_shown(source, (size_t)source->store->index_of_id[id]))
             write_row(table, scene, source, (size_t)source->store->index_of_id[id]);
 }
 

@@ -120,9 +120,26 @@ struct particle_array {
     enum column column;
 };
 
+/* The particles of a file, in the order of their ids: places in memory. */
+struct shown {
+    const struct result_source *source;
+    int32_t *places;
+    size_t count;
+};
+
+static struct shown list_shown(const struct result_source *source)
+{
+    const struct store *store = source->store;
+    struct shown shown = {source, memory_array(store->count, sizeof *shown.places, "output"), 0};
+    for (size_t id = 0; id < store->count; id++)
+        if (result_is_shown(source, (size_t)store->index_of_id[id]))
+            shown.places[shown.count++] = store->index_of_id[id];
+    return shown;
+}
+
 /* What a column of the arrays below is computed from. */
 struct particle_context {
-    const struct result_source *source;
+    const struct shown *shown;
     const struct particle_array *array;
     double (*value)(const struct result_source *source, size_t p);
 };
@@ -194,13 +211,13 @@ static double particle_value(const void *context, size_t i, int component)
 {
     const struct particle_context *c = context;
     (void)component;
-    return c->array->sign * c->value(c->source, (size_t)c->source->store->index_of_id[i]);
+    return c->array->sign * c->value(c->shown->source, (size_t)c->shown->places[i]);
 }
 
 static double particle_position(const void *context, size_t i, int component)
 {
-    const struct result_source *source = context;
-    return source->store->real[COLUMN_POSITION][component][source->store->index_of_id[i]];
+    const struct shown *shown = context;
+    return shown->source->store->real[COLUMN_POSITION][component][shown->places[i]];
 }
 
 static double own_index(const void *context, size_t i, int component)
@@ -301,17 +318,18 @@ static bool write_particles(const struct scene *scene, const struct result_sourc
 {
     struct particle_context contexts[PARTICLE_ARRAYS];
     struct data_array arrays[PARTICLE_ARRAYS];
-    const size_t count = source->store->count;
+    struct shown shown = list_shown(source);
+    const size_t count = shown.count;
     int n = 0;
     for (int i = 0; i < PARTICLE_ARRAYS; i++) {
         const struct particle_array *array = &particle_arrays[i];
         if (is_left_out(array, source->store))
             continue;
-        contexts[n] = (struct particle_context){source, array, array->result ? result_find(array->result)->value : array->value};
+        contexts[n] = (struct particle_context){&shown, array, array->result ? result_find(array->result)->value : array->value};
         arrays[n] = (struct data_array){"Float64", array->name, 1, count, particle_value, &contexts[n]};
         n++;
     }
-    const struct data_array points = {"Float64", "Points", 3, count, particle_position, source};
+    const struct data_array points = {"Float64", "Points", 3, count, particle_position, &shown};
     const struct data_array cells[3] = {{"Int64", "connectivity", 1, count, own_index, NULL},
                                         {"Int64", "offsets", 1, count, next_index, NULL},
                                         {"UInt8", "types", 1, count, vertex_type, NULL}};
@@ -320,6 +338,7 @@ static bool write_particles(const struct scene *scene, const struct result_sourc
     struct writer writer = {open_part(name, &part), is_binary, (int)scene->digits, 0};
     if (writer.stream)
         write_tree(&writer, arrays, n, &points, cells);
+    memory_free(shown.places);
     return close_part(writer.stream, name, part);
 }
 

@@ -38,16 +38,16 @@ struct cell_list_rooms {
     size_t leaving_capacity, arriving_capacity, previous_capacity, renamed_capacity, first_capacity, segments_capacity;
 };
 
-struct cell_list *cell_list_open(struct cell_frame frame, const int32_t *component_of_body, size_t count, int reach)
+struct cell_list *cell_list_open(struct cell_frame frame, const int32_t *component_of_body, size_t total, int reach)
 {
     struct cell_list *list = memory_array(1, sizeof *list, "cell list");
     list->rooms = memory_array(1, sizeof *list->rooms, "cell list");
     list->frame = frame;
     list->component_of_body = component_of_body;
-    list->count = (int32_t)count;
-    list->order = memory_array(count, sizeof *list->order, "particle order");
-    list->cell = memory_array(count, sizeof *list->cell, "particle cells");
-    list->rooms->order_next = memory_array(count, sizeof *list->order, "particle order");
+    list->total = list->count = (int32_t)total;
+    list->order = memory_array(total, sizeof *list->order, "particle order");
+    list->cell = memory_array(total, sizeof *list->cell, "particle cells");
+    list->rooms->order_next = memory_array(total, sizeof *list->order, "particle order");
     list->rooms->reach = reach;
     list->shared_blocks = SHARED_BLOCKS;
     return list;
@@ -440,13 +440,30 @@ void cell_list_update(struct cell_list *list, const struct store *store)
         settle(list, store, n_leavers);
 }
 
+void cell_list_admit(struct cell_list *list, const struct store *store, int32_t n)
+{
+    struct cell_list_rooms *rooms = list->rooms;
+    const int32_t lost = list->count - list->in_cells;
+    rooms->leavers = memory_grow(rooms->leavers, &rooms->leavers_capacity, (size_t)n, sizeof *rooms->leavers, "opening particles");
+    for (int32_t i = 0; i < n; i++) {
+        rooms->leavers[i].particle = list->count + i;
+        list->cell[list->count + i] = CELL_LEFT_BLOCK;
+    }
+    memmove(list->order + list->in_cells + n, list->order + list->in_cells, (size_t)lost * sizeof *list->order);
+    list->in_cells += n;
+    list->count += n;
+    ensure_block_rooms(list);
+    memset(rooms->leaving, 0, (size_t)list->n_blocks * sizeof *rooms->leaving);
+    settle(list, store, (size_t)n);
+}
+
 void cell_list_sort(struct cell_list *list, struct store *store)
 {
     uint8_t *cell = (uint8_t *)(void *)store->scratch;
     for (int32_t k = 0; k < list->count; k++)
         cell[k] = list->cell[list->order[k]];
     memcpy(list->cell, cell, (size_t)list->count);
-    store_reorder(store, list->order);
+    store_reorder(store, list->order, (size_t)list->count);
     for (int32_t k = 0; k < list->count; k++)
         list->order[k] = k;
     list->moved = 0;
@@ -473,8 +490,8 @@ int32_t cell_list_block_of(const struct cell_list *list, int32_t p, const struct
 double cell_list_bytes_per_particle(const struct cell_list *list)
 {
     const struct cell_list_rooms *rooms = list->rooms;
-    double bytes = (2 * sizeof *list->order + sizeof *list->cell) * (double)list->count;
+    double bytes = (2 * sizeof *list->order + sizeof *list->cell) * (double)list->total;
     bytes += (double)(rooms->blocks_capacity + rooms->blocks_next_capacity) * sizeof *list->blocks;
     bytes += (double)rooms->leavers_capacity * sizeof *rooms->leavers + (double)rooms->arrivals_capacity * sizeof *rooms->arrivals;
-    return bytes / (double)list->count;
+    return bytes / (double)list->total;
 }

@@ -31,7 +31,8 @@ struct cell_block {
 struct cell_list {
     struct cell_frame frame;
     const int32_t *component_of_body;
-    int32_t count;          /* particles in all */
+    int32_t total;          /* particles in all */
+    int32_t count;          /* those that take part: places 0 ... count - 1 in memory; the others are closed */
     int32_t in_cells;       /* particles that have a cell; the others are order[in_cells ...] */
     int32_t *order;
     uint8_t *cell;          /* per particle in memory: its cell in its block, or one of the values above */
@@ -45,19 +46,22 @@ struct cell_list {
     struct cell_list_rooms *rooms; /* private */
 };
 
-/* Makes an empty list. `reach` says how many cells beyond its own a particle's support spans on
+/* Makes an empty list in which all particles take part. `reach` says how many cells beyond its own a particle's support spans on
  * the low side; on the high side it is one more. */
-struct cell_list *cell_list_open(struct cell_frame frame, const int32_t *component_of_body, size_t count, int reach);
+struct cell_list *cell_list_open(struct cell_frame frame, const int32_t *component_of_body, size_t total, int reach);
 void cell_list_close(struct cell_list *list);
 
-/* Finds the cells of all particles anew. */
+/* Finds the cells of all particles that take part anew. */
 void cell_list_build(struct cell_list *list, const struct store *store);
 
 /* Brings the lists up to date after `cell` and `block_changed` were set for particles that moved.
  * Particles marked CELL_LEFT_BLOCK are looked up; those outside the frame get CELL_NONE. */
 void cell_list_update(struct cell_list *list, const struct store *store);
 
-/* Moves the particles in memory into the order of the list. */
+/* The closed particles at places count ... count + n - 1 take part from now on. */
+void cell_list_admit(struct cell_list *list, const struct store *store, int32_t n);
+
+/* Moves the particles that take part in memory into the order of the list. */
 void cell_list_sort(struct cell_list *list, struct store *store);
 
 /* Block of the particle at place p in memory; -1 when it has no cell. */

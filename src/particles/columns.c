@@ -30,9 +30,11 @@ static const struct column_row rows[COLUMN_COUNT] = {
     [COLUMN_START_POSITION] = {"start_position", 3, false, 0, "length", "position at the start of the step"},
     [COLUMN_AFFINE] = {"affine", 9, false, 0, "1/time", "velocity gradient that goes along with the velocity, by rows"},
     [COLUMN_LOAD] = {"load", 3, false, 0, "force", "force from the load block"},
+    [COLUMN_RESIDUAL] = {"residual", 6, false, 0, "stress", "residual stress xx yy zz yz xz xy, taken off in internal forces"},
     [COLUMN_INITIAL_POSITION] = {"initial_position", 3, false, 0, "length", "position at the start"},
     [COLUMN_ID] = {"id", 1, true, 0, NULL, "number of the particle"},
     [COLUMN_BODY] = {"body", 1, true, 0, NULL, "body of the particle"},
+    [COLUMN_LAYER] = {"layer", 1, true, 0, NULL, "layer of the build, from 0"},
 };
 
 const struct column_row *column_row(enum column column)
@@ -80,38 +82,36 @@ bool store_has(const struct store *store, enum column column)
     return store->integer[column] || store->real[column][0];
 }
 
-static void reorder_real(struct store *store, double **values, const int32_t *order)
+static void reorder_real(struct store *store, double **values, const int32_t *order, size_t count)
 {
     double *target = store->scratch;
     const double *source = *values;
-    const size_t count = store->count;
 #pragma omp parallel for schedule(static) if (count >= SHARED_PARTICLES)
     for (size_t k = 0; k < count; k++)
         target[k] = source[order[k]];
+    memcpy(target + count, source + count, (store->count - count) * sizeof *target);
     store->scratch = *values;
     *values = target;
 }
 
-static void reorder_integer(struct store *store, int32_t *values, const int32_t *order)
+static void reorder_integer(struct store *store, int32_t *values, const int32_t *order, size_t count)
 {
     int32_t *target = (int32_t *)(void *)store->scratch;
-    const size_t count = store->count;
 #pragma omp parallel for schedule(static) if (count >= SHARED_PARTICLES)
     for (size_t k = 0; k < count; k++)
         target[k] = values[order[k]];
     memcpy(values, target, count * sizeof *values);
 }
 
-void store_reorder(struct store *store, const int32_t *order)
+void store_reorder(struct store *store, const int32_t *order, size_t count)
 {
     for (int c = COLUMN_NONE + 1; c < COLUMN_COUNT; c++) {
         if (store->integer[c])
-            reorder_integer(store, store->integer[c], order);
+            reorder_integer(store, store->integer[c], order, count);
         for (int a = 0; a < COLUMN_COMPONENTS && store->real[c][a]; a++)
-            reorder_real(store, &store->real[c][a], order);
+            reorder_real(store, &store->real[c][a], order, count);
     }
     const int32_t *id = store->integer[COLUMN_ID];
-    const size_t count = store->count;
 #pragma omp parallel for schedule(static) if (count >= SHARED_PARTICLES)
     for (size_t k = 0; k < count; k++)
         store->index_of_id[id[k]] = (int32_t)k;

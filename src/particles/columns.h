@@ -31,9 +31,11 @@ enum column {
     COLUMN_START_POSITION,
     COLUMN_AFFINE,
     COLUMN_LOAD,
+    COLUMN_RESIDUAL,
     COLUMN_INITIAL_POSITION,
     COLUMN_ID,
     COLUMN_BODY,
+    COLUMN_LAYER,
     COLUMN_COUNT
 };
 
@@ -67,8 +69,9 @@ void store_close(struct store *store);
 
 bool store_has(const struct store *store, enum column column);
 
-/* Puts particle order[k] at place k, in every column. Ids go along. */
-void store_reorder(struct store *store, const int32_t *order);
+/* Puts particle order[k] at place k, for k < count, in every column; order holds the places below
+ * count. Ids go along. */
+void store_reorder(struct store *store, const int32_t *order, size_t count);
 
 /* Bytes per particle in the columns, with index and scratch. */
 size_t store_bytes_per_particle(const struct store *store);

@@ -127,8 +127,33 @@ static double displacement_z(const struct result_source *s, size_t p)
     return REAL(s, COLUMN_POSITION, 2) - REAL(s, COLUMN_INITIAL_POSITION, 2);
 }
 
+/* Of the stress whose divergence is in balance: with residual stress taken off. */
+static double von_mises_total(const struct result_source *s, size_t p)
+{
+    double stress[6];
+    if (!store_has(s->store, COLUMN_RESIDUAL))
+        return von_mises(s, p);
+    for (int a = 0; a < 6; a++)
+        stress[a] = REAL(s, COLUMN_STRESS, a) - REAL(s, COLUMN_RESIDUAL, a);
+    return tensor_von_mises(stress[0], stress[1], stress[2], stress[3], stress[4], stress[5]);
+}
+
+static double layer(const struct result_source *s, size_t p)
+{
+    return s->store->integer[COLUMN_LAYER][p] + 1;
+}
+
+static double is_open(const struct result_source *s, size_t p)
+{
+    return !result_is_closed(s, p);
+}
+
 static const struct result rows[] = {
     {.name = "seqv", .unit = "stress", .doc = "von Mises stress", .value = von_mises},
+    {.name = "seqt", .unit = "stress", .doc = "von Mises stress of the total: with the residual stress of resi taken off",
+     .value = von_mises_total},
+    {.name = "laye", .doc = "layer of the build", .is_integer = true, .columns = {COLUMN_LAYER}, .value = layer},
+    {.name = "ghos", .doc = "1 where the particle is open, 0 where it is closed", .is_integer = true, .value = is_open},
     {.name = "epef", .doc = "effective plastic strain", .value = plastic_strain},
     {.name = "mat", .doc = "material number", .is_integer = true, .value = material},
     {.name = "pres", .unit = "stress", .doc = "pressure, minus the mean stress", .value = pressure},

@@ -12,7 +12,21 @@ struct result_source {
     const struct store *store;
     const struct material *const *body_material; /* material of each body */
     const int *body_material_number;             /* its number in the deck */
+    const int32_t *n_open;                       /* particles at places from here on are closed; NULL: none is */
+    bool shows_closed;
 };
+
+/* Whether the particle at place p is closed. */
+static inline bool result_is_closed(const struct result_source *source, size_t p)
+{
+    return source->n_open && p >= (size_t)*source->n_open;
+}
+
+/* Whether output shows the particle at place p. */
+static inline bool result_is_shown(const struct result_source *source, size_t p)
+{
+    return source->shows_closed || !result_is_closed(source, p);
+}
 
 struct result {
     const char *name;
