@@ -65,9 +65,15 @@ static void velocity_usf(struct mpm *mpm, int32_t b)
 }
 
 THREADS_VECTORISED
-static void velocity_usl(struct mpm *mpm, int32_t b)
+static void all_usl(struct mpm *mpm, int32_t b)
 {
-    velocity_block(mpm, b, false, false, true, false);
+    usl_block(mpm, b, false);
+}
+
+THREADS_VECTORISED
+static void all_usl_external(struct mpm *mpm, int32_t b)
+{
+    usl_block(mpm, b, true);
 }
 
 THREADS_VECTORISED
@@ -94,8 +100,10 @@ static void gather_velocity(struct mpm *mpm, int32_t b)
         velocity_blend(mpm, b);
     else if (mpm->scene->scheme == SCHEME_USF)
         velocity_usf(mpm, b);
+    else if (mpm->scene->scheme == SCHEME_USL && mpm->has_external_force)
+        all_usl_external(mpm, b);
     else if (mpm->scene->scheme == SCHEME_USL)
-        velocity_usl(mpm, b);
+        all_usl(mpm, b);
     else if (mpm->has_external_force)
         velocity_musl_external(mpm, b);
     else
@@ -118,8 +126,8 @@ static void gather_strain(struct mpm *mpm, int32_t b)
 {
     if (mpm->scene->scheme == SCHEME_USF)
         strain_only(mpm, b);
-    else
-        strain_and_move(mpm, b);
+    else if (mpm->scene->scheme == SCHEME_MUSL || mpm->scene->transfer != TRANSFER_FLIP)
+        strain_and_move(mpm, b); /* otherwise done with the velocities */
 }
 
 /* --- smoothed pressure --- */

@@ -461,4 +461,24 @@ THREADS_INLINE void strain_block(struct mpm *mpm, int32_t b, bool moves)
     }
 }
 
+/* USL has velocity and acceleration of the nodes when it updates velocities, and needs no more for the
+ * rest of the step: all in one pass. */
+THREADS_INLINE void usl_block(struct mpm *mpm, int32_t b, bool external)
+{
+    struct workspace *w = &mpm->workspaces[threads_self()];
+    struct chunk chunk = {.block = &mpm->cells->blocks[b], .block_index = b, .workspace = w};
+    grid_read_patch(mpm->grid, b, NODE_MOMENTUM, 6, w->patch);
+    if (mpm->scene->averages_volume)
+        average_volume_change(mpm, chunk, values_of(w, PATCH_VELOCITY));
+    while (chunk_next(mpm, &chunk)) {
+        velocity_chunk(mpm, &chunk, false, false, external, false);
+        gather_gradient(&chunk, values_of(w, PATCH_VELOCITY), mpm->time_step / mpm->cells->frame.size);
+        if (mpm->scene->averages_volume)
+            use_average(&chunk);
+        stress_update(mpm, &chunk);
+        gather_values(&chunk, values_of(w, PATCH_VELOCITY));
+        motion_move(mpm, &chunk);
+    }
+}
+
 #endif

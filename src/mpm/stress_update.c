@@ -198,15 +198,20 @@ static void update_total(const struct mpm *mpm, const struct chunk *chunk, const
 }
 
 /* Work of the residual stress, which internal forces leave out. */
+THREADS_VECTORISED
 static double residual_work(const struct mpm *mpm, const struct chunk *chunk, const struct law_batch *batch)
 {
-    double work = 0;
+    struct workspace *w = chunk->workspace;
+    double total = 0;
     for (int a = 0; a < 6; a++) {
-        const double *residual = mpm->store->real[COLUMN_RESIDUAL][a];
+        const double *restrict residual = chunk_read(chunk, mpm->store->real[COLUMN_RESIDUAL][a], w->copy[0]);
+        const double *restrict strain = batch->strain[a];
         for (int32_t j = 0; j < chunk->count; j++)
-            work += 0.5 * (batch->volume[j] + batch->volume_before[j]) * residual[chunk->order[j]] * batch->strain[a][j];
+            w->work[j] = (a == 0 ? 0 : w->work[j]) + residual[j] * strain[j];
     }
-    return work;
+    for (int32_t j = 0; j < chunk->count; j++)
+        total += 0.5 * (batch->volume[j] + w->volume_before[j]) * w->work[j];
+    return total;
 }
 
 void stress_update(struct mpm *mpm, const struct chunk *chunk)
