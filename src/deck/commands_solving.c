@@ -157,6 +157,7 @@ static void read_total(struct reader *reader, const struct deck_word *word, cons
 static void read_contact(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     struct scene *scene = reader->scene;
+    static const char *const joining[] = {"join", NULL};
     const struct deck_word *method = &values[0].word;
     bool is_lagrange = method->length >= 4 && strncasecmp(method->text, "lagr", 4) == 0;
     bool is_other = method->length >= 4 && strncasecmp(method->text, "othe", 4) == 0;
@@ -168,7 +169,10 @@ static void read_contact(struct reader *reader, const struct deck_word *word, co
     scene->contact = is_lagrange ? CONTACT_LAGRANGE : CONTACT_OTHER;
     scene->contact_friction = values[1].real;
     scene->contact_normal = values[2].integer;
+    scene->contact_joins = reader_optional(reader, joining) == 0;
     reader->contact_place = method->place;
+    if (is_other && scene->contact_joins)
+        diagnostics_error(reader->diagnostics, method->place, "'join' goes with 'lagr'; 'othe' has no contact");
 }
 
 static void read_deformation(struct reader *reader, const struct deck_word *word, const struct value *values)
@@ -255,7 +259,9 @@ const struct keyword solving_keywords[] = {
                                             {"normal", NULL, ARGUMENT_INTEGER, LIMIT_NORMAL}, {0}},
      .apply = read_contact,
      .doc = "contact of components: by forces on shared nodes (lagr), or none, bodies pass each other (othe); "
-            "friction; normal of both (0), the first (1) or the second component (2)"},
+            "friction; normal of both (0), the first (1) or the second component (2); with `join` behind it nodes in "
+            "contact strain both sides with one velocity along the normal, so that musl and usf gain no energy (usl "
+            "always does)"},
     {0}};
 
 static void check_contact(struct reader *reader)

@@ -81,7 +81,7 @@ static void echo_solving(const struct scene *scene, FILE *stream)
         fprintf(stream, "cont %s", scene->contact == CONTACT_LAGRANGE ? "lagr" : "othe");
     if (scene->contact != CONTACT_NONE) {
         print_number(stream, scene->contact_friction);
-        fprintf(stream, " %ld\n", scene->contact_normal);
+        fprintf(stream, " %ld%s\n", scene->contact_normal, scene->contact_joins ? " join" : "");
     }
     if (scene->is_total)
         fprintf(stream, "TLmp\n");

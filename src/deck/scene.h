@@ -142,6 +142,7 @@ struct scene {
     enum contact_method contact;
     double contact_friction;
     long contact_normal;     /* 0 both components', 1 the first's, 2 the second's */
+    bool contact_joins;      /* cont ... join: nodes in contact strain both sides with one normal velocity */
     bool is_total;           /* TLmp */
     bool tracks_deformation; /* UVFp: volume from the deformation gradient */
     double loading_time;     /* QuLo: loads grow up to this time; 0: at once */

@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contact of components on the nodes that they share (spec 9.1): each pair of components keeps its
- * own velocity field where it parts, and exchanges a force where it closes. */
+ * own velocity field where it parts, and exchanges a force where it closes.
+ *
+ * The velocities that strain the points of musl and usf come from points and know nothing of that force:
+ * with `cont ... join` they are made one along the normal on the nodes where there is a force, closing or
+ * parting, as the corrected velocities with which usl strains are (with only the closing ones joined the
+ * energy that the points get back in parting is more than what pressed them). */
 #include "base/memory.h"
 #include "mpm/mpm.h"
 
@@ -12,6 +17,7 @@ static const double TINY = 2.2e-16;
 struct contact_pair {
     int32_t first, second;
     double force[3]; /* on the pair in this step */
+    uint64_t is_touching, is_sticking; /* bits of the nodes with a force in this step, and of those where nothing slides */
 };
 
 struct contact {
@@ -49,7 +55,7 @@ static void find_pairs(const struct cell_list *cells, struct contact *contact)
                 continue;
             contact->pairs = memory_grow(contact->pairs, &contact->capacity, contact->n_pairs + 1,
                                          sizeof *contact->pairs, "contact");
-            contact->pairs[contact->n_pairs++] = (struct contact_pair){b, other, {0, 0, 0}};
+            contact->pairs[contact->n_pairs++] = (struct contact_pair){.first = b, .second = other};
         }
 }
 
@@ -68,9 +74,10 @@ static void find_normal(const struct mpm *mpm, const struct contact_pair *pair, 
         normal[a] /= length;
 }
 
-/* Force that the first component gives to the second; false when they part. */
+/* Force that the first component gives to the second, and whether it keeps them from sliding; false when
+ * they part. */
 static bool contact_force(const struct mpm *mpm, const struct contact_pair *pair, int node, const double normal[3],
-                          double force[3])
+                          double force[3], bool *sticks)
 {
     const double m1 = grid_field(mpm->grid, pair->first, NODE_MASS)[node];
     const double m2 = grid_field(mpm->grid, pair->second, NODE_MASS)[node];
@@ -92,6 +99,7 @@ static bool contact_force(const struct mpm *mpm, const struct contact_pair *pair
     double kept = friction <= TINY ? 0 : friction * fabs(along) < tangential ? friction * fabs(along) / tangential : 1;
     for (int a = 0; a < 3; a++)
         force[a] = along * normal[a] + kept * force[a];
+    *sticks = kept == 1;
     return true;
 }
 
@@ -116,13 +124,17 @@ static void resolve_pair(const struct mpm *mpm, struct contact_pair *pair)
     double normal[3], force[3];
     for (int a = 0; a < 3; a++)
         pair->force[a] = 0;
+    pair->is_touching = pair->is_sticking = 0;
     for (int node = 0; node < BLOCK_CELLS; node++) {
         if (!(m1[node] > cutoff && m2[node] > cutoff))
             continue;
         find_normal(mpm, pair, node, normal);
-        if (!contact_force(mpm, pair, node, normal, force))
+        bool sticks;
+        if (!contact_force(mpm, pair, node, normal, force, &sticks))
             continue;
         apply_force(mpm, pair, node, force);
+        pair->is_touching |= UINT64_C(1) << node;
+        pair->is_sticking |= (uint64_t)sticks << node;
         for (int a = 0; a < 3; a++)
             pair->force[a] += force[a];
     }
@@ -142,4 +154,35 @@ void contact_resolve(struct mpm *mpm)
         for (int a = 0; a < 3; a++)
             mpm->contact_force[a] += contact->pairs[i].force[a];
     }
+}
+
+/* Straining velocities of a node: those of both sides become one along the normal, and along the surface too
+ * where nothing slides. The momentum that they stand for stays. */
+static void join_node(const struct mpm *mpm, const struct contact_pair *pair, int node)
+{
+    const double m1 = grid_field(mpm->grid, pair->first, NODE_MASS)[node];
+    const double m2 = grid_field(mpm->grid, pair->second, NODE_MASS)[node];
+    const uint8_t fixed = mpm->grid->fixed[(size_t)pair->first * BLOCK_CELLS + (size_t)node];
+    const bool sticks = pair->is_sticking >> node & 1;
+    double normal[3], closing[3], along = 0;
+    find_normal(mpm, pair, node, normal);
+    for (int a = 0; a < 3; a++) {
+        closing[a] = grid_field(mpm->grid, pair->first, NODE_STRAINING + a)[node]
+                   - grid_field(mpm->grid, pair->second, NODE_STRAINING + a)[node];
+        along += closing[a] * normal[a];
+    }
+    for (int a = 0; a < 3; a++) {
+        double change = fixed >> a & 1 ? 0 : sticks ? closing[a] : along * normal[a];
+        grid_field(mpm->grid, pair->first, NODE_STRAINING + a)[node] -= m2 / (m1 + m2) * change;
+        grid_field(mpm->grid, pair->second, NODE_STRAINING + a)[node] += m1 / (m1 + m2) * change;
+    }
+}
+
+void contact_join(struct mpm *mpm)
+{
+    const struct contact *contact = mpm->contact;
+    for (size_t i = 0; i < contact->n_pairs; i++)
+        for (int node = 0; node < BLOCK_CELLS; node++)
+            if (contact->pairs[i].is_touching >> node & 1)
+                join_node(mpm, &contact->pairs[i], node);
 }

@@ -211,6 +211,9 @@ double smoothing_volume(const struct mpm *mpm, size_t p);
 void contact_open(struct mpm *mpm);
 void contact_close(struct mpm *mpm);
 void contact_resolve(struct mpm *mpm);
+/* With `cont ... join`: one straining velocity along the normal for both sides of the nodes where the last
+ * contact_resolve gave a force; momentum m1 v1 + m2 v2 stays. */
+void contact_join(struct mpm *mpm);
 
 /* What all shape functions do with a portion of particles once the grid's values are in the
  * thread's workspace. */

@@ -32,6 +32,15 @@ static void scatter_all(struct mpm *mpm, int32_t b)
     mpm->shape->scatter(mpm, b, true, true);
 }
 
+/* Where there is contact, by a trial of the step with the stress that the particles have; the grid's own
+ * values come afterwards. Momentum, force and normals are on the patches. */
+static void find_contact(struct mpm *mpm, double step)
+{
+    faces_scatter(mpm, NODE_FORCE - NODE_MASS);
+    grid_integrate_momentum(mpm->grid, NODE_MASS, NODE_STRAINING - NODE_MASS + 3, step);
+    contact_resolve(mpm);
+}
+
 /* Steps 1 to 5: mass and momentum to the nodes, boundary conditions, for USF the stress with the
  * nodal velocities before the update, the nodal forces, and the momentum equation on the nodes.
  * Where the stress is not updated in between, momentum and force go to the grid in one pass. */
@@ -39,14 +48,19 @@ static void solve_on_grid(struct mpm *mpm)
 {
     const double step = mpm->time_step * mpm->momentum_factor;
     const bool stress_first = mpm->scene->scheme == SCHEME_USF;
+    const bool joins = mpm->scene->contact_joins;
     if (stress_first) {
         timers_enter(mpm->timers, PHASE_SCATTER);
-        mpm_each_block(mpm, scatter_momentum);
+        mpm_each_block(mpm, joins ? scatter_all : scatter_momentum);
         timers_enter(mpm->timers, PHASE_GRID);
+        if (joins)
+            find_contact(mpm, step);
         if (mpm->shape->strain_first)
             mpm->shape->strain_first(mpm);
         else
             grid_straining_velocity(mpm->grid, NODE_MASS, 4);
+        if (joins)
+            contact_join(mpm);
         timers_enter(mpm->timers, PHASE_STRESS);
         mpm_each_block(mpm, mpm->shape->gather_strain);
     }
@@ -86,6 +100,8 @@ static void update_stress_last(struct mpm *mpm)
         mpm->shape->strain_last(mpm);
     else if (mpm->scene->scheme == SCHEME_MUSL)
         grid_straining_velocity(mpm->grid, NODE_STRAINING, 3);
+    if (mpm->scene->contact_joins && mpm->scene->scheme == SCHEME_MUSL)
+        contact_join(mpm);
     timers_enter(mpm->timers, PHASE_STRESS);
     mpm_each_block(mpm, mpm->shape->gather_strain);
 }
