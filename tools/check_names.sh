@@ -5,7 +5,7 @@
 cd "$1" || exit 2
 bad=$(find . -name '*.o' ! -path './tests/*' | while read -r object; do
     nm -g --defined-only "$object" | awk '$2 ~ /[TDBRi]/ { print $3 }' | sed 's/\.resolver$//' | sort -u |
-        grep -vE '^(main|status_|memory_|threads_|timers_|argument_|text_|diagnostics_|keyword_|reader_|scene_|echo_|help_|column_|store_|cell_list_|generator_|result_|law_|grid_|mpm_|faces_|motion_|stress_|shape_|contact_|smoothing_|eos_|johnson_cook_|vtk_|table_|animation_|history_|progress_|run_|summary_|building_|schedule_|transformation_|heat_|[a-z]+_keywords$)' |
+        grep -vE '^(main|status_|memory_|threads_|timers_|argument_|text_|diagnostics_|keyword_|reader_|scene_|echo_|help_|column_|store_|cell_list_|generator_|result_|law_|grid_|mpm_|faces_|motion_|stress_|shape_|contact_|smoothing_|eos_|johnson_cook_|vtk_|table_|animation_|history_|progress_|run_|summary_|staggered_|building_|schedule_|transformation_|heat_|[a-z]+_keywords$)' |
         sed "s|^|$object: |"
 done)
 [ -z "$bad" ] && echo "all visible names carry their module's prefix" && exit 0

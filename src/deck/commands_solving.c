@@ -302,12 +302,6 @@ void reader_finish_solving(struct reader *reader)
     if (scene->averages_volume && (scene->interpolation != INTERPOLATION_LINEAR || scene->is_total))
         diagnostics_error(reader->diagnostics, reader->averaging_place,
                           "'bbar' does not go with 'gimp', 'bimp', 'sgmp' or 'TLmp'");
-    for (size_t i = 0; i < scene->n_loads && scene->interpolation != INTERPOLATION_LINEAR; i++)
-        if (scene->loads[i].kind == LOAD_FACE) { /* said once */
-            diagnostics_error(reader->diagnostics, scene->loads[i].place,
-                              "'load face' does not go with gimp, bimp or sgmp");
-            break;
-        }
     if (diagnostics_errors(reader->diagnostics) > 0 || scene->contact != CONTACT_NONE)
         return;
     for (size_t b = 1; b < scene->n_bodies; b++)

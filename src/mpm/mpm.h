@@ -202,6 +202,10 @@ void faces_close(struct mpm *mpm);
 void faces_scatter(struct mpm *mpm, int force_field); /* adds to field force_field + 0, 1, 2 of the patches */
 double faces_work(const struct mpm *mpm); /* after the grid is integrated */
 
+/* Staggered grid: how far from coordinate x along axis a, in cells, the point lies with whose weights a particle
+ * there gives to the centres: not 0 near walls, where it gives to one centre whole (spec 9.3). */
+double staggered_shift(const struct mpm *mpm, int a, double x);
+
 /* Smoothed pressure (spec 9.6). */
 void smoothing_start(struct mpm *mpm);  /* before a step */
 void smoothing_finish(struct mpm *mpm); /* after its stress and motion, before cells change */

@@ -4,27 +4,13 @@
  * row has a fourth node of weight 0. */
 #include "base/threads.h"
 #include "mpm/chunk.h"
+#include "mpm/hat.h"
 
-#include <math.h>
 #include <string.h>
 
 enum { EDGE = 7, ROW = 8, SUPPORT = 3, PATCH_NODES = LARGEST_PATCH };
 
-/* Half width of the reference's gimp particles, in cells, whatever their spacing (spec 7.2). */
-#define FIXED_HALF_WIDTH 0.25
-
 /* --- weights --- */
-
-/* The hat function averaged over a particle of half width l, and its slope, at distance r, all in
- * cells (Bardenhagen and Kober, CMES 5, 2004). */
-THREADS_INLINE void averaged_hat(double r, double l, double *weight, double *slope)
-{
-    double distance = fabs(r), sign = r < 0 ? -1 : 1;
-    double tail = 1 + l - distance;
-    bool is_top = distance < l, is_side = distance <= 1 - l, is_out = tail <= 0;
-    *weight = is_top ? 1 - (r * r + l * l) / (2 * l) : is_side ? 1 - distance : is_out ? 0 : tail * tail / (4 * l);
-    *slope = is_top ? -r / l : is_side ? -sign : is_out ? 0 : -sign * tail / (2 * l);
-}
 
 /* Weights and slopes of a chunk along one axis; returns in `low` whether the lowest node is one
  * below the cell. `local` is the position in the cell. */
@@ -39,7 +25,7 @@ THREADS_INLINE void hat_weights(const struct chunk *chunk, int a, const double *
     for (int n = 0; n < SUPPORT; n++) {
         double *restrict weight = w->weight[a][n], *restrict slope = w->slope[a][n];
         for (int32_t j = 0; j < chunk->count; j++)
-            averaged_hat(local[j] + (local[j] < 0.5 ? 1 - n : -n), half_width ? half_width[j] : FIXED_HALF_WIDTH, &weight[j],
+            hat_averaged(local[j] + (local[j] < 0.5 ? 1 - n : -n), half_width ? half_width[j] : HAT_FIXED_HALF_WIDTH, &weight[j],
                          &slope[j]);
     }
 }

@@ -65,6 +65,12 @@ static struct staggered_place find_place(const struct mpm *mpm, int a, double x)
     return place;
 }
 
+double staggered_shift(const struct mpm *mpm, int a, double x)
+{
+    const struct staggered_place place = find_place(mpm, a, x);
+    return place.cell + 1 + 0.5 * place.give - (x - mpm->cells->frame.low[a]) / mpm->cells->frame.size;
+}
+
 /* Base centre and pairs of weights of the chunk's particles: to give in `weight`, to take in `slope`. */
 static void find_weights(const struct mpm *mpm, const struct chunk *chunk)
 {
@@ -194,10 +200,12 @@ static void node_momentum(const struct mpm *mpm, int32_t b, int n, bool remaps)
         grid_field(mpm->grid, b, (remaps ? NODE_STRAINING : NODE_MOMENTUM) + a)[n] = sum[1 + a];
 }
 
-/* Force of a node: an eighth of the loads, and the stress times the node's gradient at each centre. */
+/* Force of a node: its tractions, an eighth of the loads, and the stress times the node's gradient at each centre. */
 static void node_force(const struct mpm *mpm, int32_t b, int n)
 {
     double sum[3] = {0};
+    for (int a = 0; a < 3 && mpm->n_faces > 0; a++)
+        sum[a] = grid_field(mpm->grid, b, NODE_STRAINING + a)[n];
     for (int i = 0; i < 8; i++) {
         int place, d[3] = {(i & 1) - 1, (i >> 1 & 1) - 1, (i >> 2) - 1};
         int32_t source = beside(mpm->grid, b, n, d, &place);
@@ -329,6 +337,17 @@ static void collect_all(const struct mpm *mpm, int32_t b)
     grid_collect(mpm->centres, b, CENTRE_MASS, MOMENTUM_FIELDS + FORCE_FIELDS, 0);
 }
 
+/* Tractions of faces, for node_force. */
+static void collect_tractions(const struct mpm *mpm, int32_t b)
+{
+    grid_collect(mpm->grid, b, NODE_STRAINING, 3, 0);
+}
+
+static void collect_all_tractions(const struct mpm *mpm, int32_t b)
+{
+    grid_collect(mpm->grid, b, NODE_STRAINING, 3, NODE_FORCE - NODE_MASS);
+}
+
 static void collect_remapped(const struct mpm *mpm, int32_t b)
 {
     grid_collect(mpm->centres, b, CENTRE_MOMENTUM, 3, 0);
@@ -346,6 +365,8 @@ static void strain_first(struct mpm *mpm)
 static void integrate(struct mpm *mpm, bool with_momentum)
 {
     each_block(mpm, with_momentum ? collect_all : collect_force);
+    if (mpm->n_faces > 0)
+        each_block(mpm, with_momentum ? collect_all_tractions : collect_tractions);
     if (with_momentum)
         each_block(mpm, all_momentum);
     each_block(mpm, all_integrated);

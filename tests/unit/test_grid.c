@@ -409,12 +409,19 @@ struct block_test {
     int n, numbers[3];
     double shift[3], stress[6];
     int faces;
+    const char *shape; /* the deck's word, or NULL: linear */
+    double spacing;    /* in cells, or 0: 1 / n */
 };
 
 enum { BLOCK_GRID = 16 };
 
 static const double CELL = 0.5;
 static const int component_of[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}};
+
+static double spacing_of(const struct block_test *test)
+{
+    return CELL * (test->spacing > 0 ? test->spacing : 1.0 / test->n);
+}
 
 static void open_block(struct test_run *run, const struct block_test *test)
 {
@@ -424,8 +431,8 @@ static void open_block(struct test_run *run, const struct block_test *test)
     for (int a = 0; a < 3; a++)
         origin[a] = (3 + test->shift[a]) * CELL;
     deck_add(&deck, "nbbo 1\nnbmp 20000\nnmat 1\ngrid 0 %.17g 0 %.17g 0 %.17g\n", high, high, high);
-    deck_add(&deck, "dcell %.17g\n", CELL);
-    deck_add(&deck, "mate\n1 elas 1 1 0.3\npart bloc 1\n1 1 %.17g %.17g %.17g %.17g %d %d %d\nload\n", CELL / test->n,
+    deck_add(&deck, "dcell %.17g\n%s\n", CELL, test->shape ? test->shape : "");
+    deck_add(&deck, "mate\n1 elas 1 1 0.3\npart bloc 1\n1 1 %.17g %.17g %.17g %.17g %d %d %d\nload\n", spacing_of(test),
              origin[0], origin[1], origin[2], test->numbers[0], test->numbers[1], test->numbers[2]);
     for (int face = 0; face < 6; face++) {
         double sign = face % 2 ? 1 : -1;
@@ -489,24 +496,34 @@ static void test_inner_nodes(const struct block_test *test, const char *name)
     test_run_close(&run);
 }
 
-/* With tractions on all faces every node is in equilibrium, so no acceleration is left. */
-static void test_equilibrium(const struct block_test *test, const char *name)
+/* Largest node force of a block, and mass times acceleration after the grid's pass, in the same unit. */
+static double force_left(const struct block_test *test)
 {
     struct test_run run;
     open_block(&run, test);
     set_stress(run.mpm, test->stress);
     find_node_forces(run.mpm);
-    double force = largest_force(0, BLOCK_GRID), acceleration = 0;
-    grid_integrate(run.mpm->grid, NODE_MASS, 7, 0);
+    double force = run.mpm->centres ? 0 : largest_force(0, BLOCK_GRID), acceleration = 0;
+    if (run.mpm->centres) /* nodes have their forces only now */
+        run.mpm->shape->integrate(run.mpm, true);
+    else
+        grid_integrate(run.mpm->grid, NODE_MASS, 7, 0);
     for (int32_t b = 0; b < run.mpm->cells->n_blocks; b++)
         for (int a = 0; a < 3; a++)
             for (int n = 0; n < BLOCK_CELLS; n++) {
                 double mass = grid_field(run.mpm->grid, b, NODE_MASS)[n];
                 acceleration = fmax(acceleration, fabs(mass * grid_field(run.mpm->grid, b, NODE_FORCE + a)[n]));
             }
-    printf("   largest force %.2g\n", force);
-    check_near(name, fmax(force, acceleration / (CELL * CELL)), 0, 1e-13);
     test_run_close(&run);
+    return fmax(force, acceleration / (CELL * CELL));
+}
+
+/* With tractions on all faces every node is in equilibrium, so no acceleration is left. */
+static void test_equilibrium(const struct block_test *test, const char *name)
+{
+    const double force = force_left(test);
+    printf("   largest force %.2g\n", force);
+    check_near(name, force, 0, 1e-13);
 }
 
 /* One traction and no stress: the node forces add up to traction times area. */
@@ -515,7 +532,7 @@ static void test_traction_sum(const struct block_test *test, int face)
     struct test_run run;
     struct block_test one = *test;
     char name[80];
-    double sum[3] = {0}, deviation = 0, spacing = CELL / test->n;
+    double sum[3] = {0}, deviation = 0, spacing = spacing_of(test);
     double area = spacing * spacing * test->numbers[(face / 2 + 1) % 3] * test->numbers[(face / 2 + 2) % 3];
     one.faces = 1 << face;
     open_block(&run, &one);
@@ -633,6 +650,38 @@ static void test_blocks(void)
         }
 }
 
+/* Wide shapes: equilibrium under all tractions wherever the faces are, for spacings of one n-th of a cell;
+ * with windows as wide as the points (gimp cp) for any. */
+static void test_wide_blocks(void)
+{
+    static const double shifts[][3] = {
+        {0, 0, 0}, {0.25, 0.25, 0.25}, {0.1, 0.45, 0.8}, {-0.3, 0.05, 0.49}, {0.6, 0.7, 0.3}};
+    static const char *const shapes[] = {"gimp", "gimp cp", "bimp", "sgmp"};
+    char name[100];
+    for (int n = 1; n <= 4; n++)
+        for (size_t s = 0; s < sizeof shifts / sizeof shifts[0]; s++)
+            for (int i = 0; i < 4; i++) {
+                struct block_test test = {.n = n, .numbers = {4 * n + 1, 4 * n, 3 * n + 1}, .faces = 63, .shape = shapes[i]};
+                memcpy(test.shift, shifts[s], sizeof test.shift);
+                memcpy(test.stress, oblique, sizeof test.stress);
+                snprintf(name, sizeof name, "face: equilibrium, %s, %d a cell edge, shift %zu", shapes[i], n, s);
+                test_equilibrium(&test, name);
+            }
+    struct block_test unloaded = {.n = 2, .numbers = {8, 8, 8}, .shape = "sgmp", .stress = {1}};
+    check_true("face: no equilibrium without tractions, sgmp", force_left(&unloaded) > 0.1);
+    struct block_test odd = {.n = 1, .numbers = {11, 10, 9}, .faces = 63, .shape = "gimp cp", .spacing = 0.43};
+    memcpy(odd.stress, oblique, sizeof odd.stress);
+    test_equilibrium(&odd, "face: equilibrium, gimp cp, spacing 0.43");
+    for (int i = 0; i < 3; i++) {
+        odd.shape = shapes[i];
+        for (int face = 0; face < 6; face++)
+            test_traction_sum(&odd, face);
+        struct block_test stretched = {.n = 2, .numbers = {12, 12, 12}, .faces = 63, .stress = {1, 0.5, -0.3}, .shape = shapes[i]};
+        for (double e = 1e-2; e > 1e-5; e *= 0.1)
+            test_stretched(&stretched, e);
+    }
+}
+
 int main(void)
 {
     threads_set(1); /* waiting for other threads takes longer than all the work here */
@@ -641,6 +690,7 @@ int main(void)
         for (int has_load = 0; has_load < 2; has_load++)
             test_conservation(at_once, has_load);
     test_blocks();
+    test_wide_blocks();
     struct block_test test = {.n = 2, .numbers = {12, 10, 9}, .shift = {0.3, 0.1, 0.2}, .faces = 63};
     memcpy(test.stress, oblique, sizeof test.stress);
     for (int face = 0; face < 6; face++)
