@@ -3,9 +3,17 @@
 # Every function that is visible outside its file has to begin with a name of its module, so that
 # nothing is visible by accident: sh tools/check_names.sh BUILD
 cd "$1" || exit 2
+prefixes=$(tr " \n" "||" <<END | sed "s/|$//"
+main status_ memory_ threads_ timers_ argument_ text_ diagnostics_ keyword_ reader_ scene_
+echo_ help_ column_ store_ cell_list_ generator_ solid_ stl_ crossings_ result_ law_ grid_
+mpm_ faces_ motion_ stress_ shape_ contact_ smoothing_ eos_ johnson_cook_ vtk_ table_
+animation_ history_ progress_ run_ summary_ staggered_ building_ schedule_ transformation_
+heat_
+END
+)
 bad=$(find . -name '*.o' ! -path './tests/*' | while read -r object; do
     nm -g --defined-only "$object" | awk '$2 ~ /[TDBRi]/ { print $3 }' | sed 's/\.resolver$//' | sort -u |
-        grep -vE '^(main|status_|memory_|threads_|timers_|argument_|text_|diagnostics_|keyword_|reader_|scene_|echo_|help_|column_|store_|cell_list_|generator_|result_|law_|grid_|mpm_|faces_|motion_|stress_|shape_|contact_|smoothing_|eos_|johnson_cook_|vtk_|table_|animation_|history_|progress_|run_|summary_|staggered_|building_|schedule_|transformation_|heat_|[a-z]+_keywords$)' |
+        grep -vE "^($prefixes|[a-z]+_keywords\$)" |
         sed "s|^|$object: |"
 done)
 [ -z "$bad" ] && echo "all visible names carry their module's prefix" && exit 0

@@ -2,6 +2,7 @@
 /* Discrete information: the part blocks. */
 #include "base/memory.h"
 #include "deck/commands_process.h"
+#include "particles/solid.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -141,19 +142,6 @@ static bool read_points(struct reader *reader, struct generator *generator)
     return true;
 }
 
-/* An axis as x, y, z or 1, 2, 3; -1 and an error otherwise. */
-static int read_axis(struct reader *reader, const struct value *value)
-{
-    char shown[40];
-    static const char names[] = "xyzXYZ123";
-    const char *found = value->word.length == 1 ? strchr(names, value->word.text[0]) : NULL;
-    if (found)
-        return (int)(found - names) % 3;
-    diagnostics_error(reader->diagnostics, value->word.place, "the axis must be x, y or z, not '%s'",
-                      text_show(&value->word, shown, sizeof shown));
-    return -1;
-}
-
 static bool read_lattice(struct reader *reader, struct generator *generator)
 {
     struct value values[KEYWORD_ARGUMENTS];
@@ -166,7 +154,7 @@ static bool read_lattice(struct reader *reader, struct generator *generator)
     generator->spacing = values[2].real;
     for (int i = 3; i < argument_count(arguments); i++) {
         bool is_axis = arguments[i].kind == ARGUMENT_WORD;
-        int axis = is_axis ? read_axis(reader, &values[i]) : 0;
+        int axis = is_axis ? reader_axis(reader, &values[i]) : 0;
         if (axis < 0)
             return false;
         generator->number[i - 3] = is_axis ? axis : values[i].real;
@@ -216,6 +204,23 @@ static bool part_may_come(struct reader *reader, const struct deck_word *word)
     return false;
 }
 
+/* The lattice and the steps of `part solid`; where the lattice is wrong the steps are read too. */
+static bool read_solid(struct reader *reader, struct generator *generator, const struct value *values)
+{
+    struct deck_word word = values[1].word;
+    double real;
+    bool is_read = !lacks_component(reader, generator, values) && read_lattice(reader, generator);
+    if (is_read)
+        generator->solid = solid_open(generator->number, generator->spacing);
+    while (!is_read && text_peek(reader->text, &word) && reader_is_real(&word, &real))
+        reader_word(reader, &word, "a step");
+    is_read = reader_solid_block(reader, generator->solid) && is_read;
+    const char *fault = is_read ? solid_fault(generator->solid) : NULL;
+    if (fault)
+        diagnostics_error(reader->diagnostics, values[0].word.place, "%s", fault);
+    return is_read && !fault;
+}
+
 /* Reads what the generator needs. */
 static bool read_generator(struct reader *reader, struct generator *generator, const struct value *values)
 {
@@ -227,6 +232,8 @@ static bool read_generator(struct reader *reader, struct generator *generator, c
     }
     if (!generator->row->arguments)
         return read_points(reader, generator);
+    if (strcmp(generator->row->name, "soli") == 0)
+        return read_solid(reader, generator, values);
     return !lacks_component(reader, generator, values) && read_lattice(reader, generator);
 }
 
@@ -248,6 +255,7 @@ static void fail_part(struct reader *reader, const struct deck_word *word)
     reader->has_bad_part = true;
     add_body(reader, &body);
     reader_skip_numbers(reader);
+    reader_skip_solid(reader);
 }
 
 static void read_part(struct reader *reader, const struct deck_word *word, const struct value *values)
@@ -257,7 +265,7 @@ static void read_part(struct reader *reader, const struct deck_word *word, const
     bool may_come = part_may_come(reader, word);
     bool is_read = read_generator(reader, &body.generator, values);
     if (!may_come || !is_read || !count_points(reader, &body)) {
-        memory_free(body.generator.points);
+        generator_close(&body.generator);
         fail_part(reader, word);
         return;
     }

@@ -61,17 +61,6 @@ static void read_end(struct reader *reader, const struct deck_word *word, const 
     reader->ended = true;
 }
 
-/* The path of an included file, seen from the folder of the deck that names it. Caller frees. */
-static char *path_from(const char *deck, const char *name, size_t length)
-{
-    const char *slash = strrchr(deck, '/');
-    size_t folder = slash && name[0] != '/' ? (size_t)(slash - deck) + 1 : 0;
-    char *path = memory_array(folder + length + 1, 1, "a file name");
-    memcpy(path, deck, folder);
-    memcpy(path + folder, name, length);
-    return path;
-}
-
 /* Starts reading a file; what is wrong with it, or NULL. */
 static const char *include(struct reader *reader, const char *path)
 {
@@ -99,13 +88,7 @@ static void fail_include(struct reader *reader, const struct deck_word *word)
 static void read_include(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     const struct deck_word *file = &values[0].word;
-    const char *name = file->text;
-    size_t length = file->length;
-    if (*name == '"') {
-        name++;
-        length -= length > 1 && name[length - 2] == '"' ? 2 : 1;
-    }
-    char *path = path_from(text_file(reader->text, file->place.file)->name, name, length);
+    char *path = text_path(reader->text, file);
     const char *wrong = include(reader, path);
     if (wrong) {
         diagnostics_error(reader->diagnostics, file->place, "cannot include '%s': %s", path, wrong);

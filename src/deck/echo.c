@@ -2,6 +2,7 @@
 #include "deck/echo.h"
 #include "deck/keyword.h"
 #include "material/eos.h"
+#include "particles/solid.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -149,6 +150,38 @@ static void echo_points(const struct generator *generator, FILE *stream, long fi
     }
 }
 
+/* A file's name, in quotes as it may have blanks. */
+static void print_file(FILE *stream, const char *file)
+{
+    const char *quote = strchr(file, '"') ? "" : "\"";
+    fprintf(stream, " %s%s%s", quote, file, quote);
+}
+
+static void echo_steps(const struct solid *solid, FILE *stream)
+{
+    static const char *const operations[] = {[SOLID_ADD] = "add", [SOLID_CUT] = "cut", [SOLID_KEEP] = "keep"};
+    for (size_t s = 0; s < solid->n_steps; s++) {
+        const struct solid_step *step = &solid->steps[s];
+        const struct argument *arguments = step->shape->arguments;
+        fprintf(stream, "  %s %s", operations[step->operation], step->shape->name);
+        for (int i = 0; i < argument_count(arguments) && !step->file; i++) {
+            if (arguments[i].kind == ARGUMENT_WORD)
+                fprintf(stream, " %c", "xyz"[(int)step->number[i]]);
+            else
+                print_number(stream, step->number[i]);
+        }
+        if (step->file) {
+            print_file(stream, step->file);
+            fprintf(stream, " scale");
+            print_number(stream, step->scale);
+            fprintf(stream, " move");
+            print_numbers(stream, step->move, 3);
+        }
+        fprintf(stream, "\n");
+    }
+    fprintf(stream, "endp\n");
+}
+
 static void echo_bodies(const struct scene *scene, FILE *stream, bool whole)
 {
     for (size_t b = 0; b < scene->n_bodies; b++) {
@@ -174,6 +207,8 @@ static void echo_bodies(const struct scene *scene, FILE *stream, bool whole)
             print_number(stream, generator->number[i - 3] + is_axis);
         }
         fprintf(stream, "   ! particles %ld to %ld\n", body->first + 1, body->first + body->count);
+        if (generator->solid)
+            echo_steps(generator->solid, stream);
     }
 }
 

@@ -5,6 +5,7 @@
 #include "material/law.h"
 #include "particles/generate.h"
 #include "particles/results.h"
+#include "particles/solid.h"
 
 #include <string.h>
 
@@ -83,6 +84,33 @@ static void print_table(FILE *stream, const struct keyword *table)
     }
 }
 
+/* The rules of part solid, for --help and the manual. */
+static const char solid_rules[] =
+    "The steps are done in their order; the first must be add. Points stand at the origin plus i + 1/2, j + 1/2, k + 1/2\n"
+    "spacings, for all whole i, j, k inside the shapes, and are numbered with x fastest, then y, then z. A point that is\n"
+    "inside by no more than 1e-9 spacings is on the surface, which is outside: of an add it does not come, of a cut it\n"
+    "stays, of a keep it goes. For stl the 1e-9 grows by the single precision of the file, 1.2e-7 of its largest\n"
+    "coordinate. Its surface must be watertight; which way its normals show does not matter. Where two of its shells\n"
+    "overlap is outside, as in a hollow part; a warning tells.\n";
+
+static void print_shapes(FILE *stream)
+{
+    int count;
+    const struct solid_shape *rows = solid_shapes(&count);
+    fprintf(stream, "\nSteps, up to endp, each with a shape:\n");
+    print_table(stream, solid_keywords);
+    fprintf(stream, "Shapes:\n");
+    for (int i = 0; i < count; i++) {
+        print_line(stream, rows[i].name, rows[i].doc, NULL);
+        fprintf(stream, "        %s", rows[i].name);
+        print_arguments(stream, rows[i].arguments);
+        fprintf(stream, "\n");
+    }
+    fprintf(stream, "Behind the file of stl:\n");
+    print_table(stream, surface_keywords);
+    fprintf(stream, "\n%s", solid_rules);
+}
+
 /* What belongs below a word: the rows that may stand in its block. */
 static void print_below(FILE *stream, const char *name)
 {
@@ -135,6 +163,8 @@ static bool help_other(const char *word, FILE *stream)
         print_arguments(stream, generator->arguments);
         fprintf(stream, "\n    %s\n", generator->doc);
         print_argument_table(stream, generator->arguments);
+        if (strcmp(generator->name, "soli") == 0)
+            print_shapes(stream);
     }
     if (result)
         fprintf(stream, "result %s\n    %s%s%s%s\n", result->name, result->doc, result->unit ? ", " : "",
@@ -210,6 +240,13 @@ void help_manual(FILE *stream)
     const struct generator_row *generators = generator_rows(&count);
     for (int i = 0; i < count; i++)
         manual_row(stream, generators[i].name, generators[i].doc, generators[i].arguments, NULL);
+    manual_keywords(stream, "Steps of part solid, up to endp", solid_keywords);
+    manual_head(stream, "Shapes of part solid");
+    const struct solid_shape *shapes = solid_shapes(&count);
+    for (int i = 0; i < count; i++)
+        manual_row(stream, shapes[i].name, shapes[i].doc, shapes[i].arguments, NULL);
+    manual_keywords(stream, "Words behind the file of stl", surface_keywords);
+    fprintf(stream, "\n%s", solid_rules);
     fprintf(stream, "\n### Results of outr, curv, curx\n\n| word | what | unit |\n|---|---|---|\n");
     const struct result *results = result_rows(&count);
     for (int i = 0; i < count; i++)

@@ -54,6 +54,9 @@ const char *keyword_category_title(enum category category);
 /* Tables of the sub-blocks of load, velo and Ghost, ended by a row without name. */
 extern const struct keyword load_keywords[], velocity_keywords[], ghost_keywords[];
 
+/* The steps of part solid, and the words that may follow a shape from a file. */
+extern const struct keyword solid_keywords[], surface_keywords[];
+
 /* The row in `table` whose first four characters agree with a NUL-ended word, or NULL. */
 const struct keyword *keyword_in(const struct keyword *table, const char *word);
 

@@ -126,11 +126,11 @@ bool reader_word(struct reader *reader, struct deck_word *word, const char *what
 }
 
 /* The block that a word ends, or NULL. */
-static const char *ended_block(const char *text)
+static const char *block_of_end(const char *word)
 {
-    static const char *const ends[][2] = {{"endl", "load"}, {"endv", "velo"}, {"endg", "Ghost"}};
+    static const char *const ends[][2] = {{"endl", "load"}, {"endv", "velo"}, {"endp", "part solid"}, {"endg", "Ghost"}};
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++)
-        if (strncasecmp(text, ends[i][0], 4) == 0)
+        if (strncasecmp(word, ends[i][0], 4) == 0)
             return ends[i][1];
     return NULL;
 }
@@ -140,7 +140,7 @@ bool reader_is_keyword(const struct deck_word *word)
     char text[SHOWN];
     text_copy(word, text, sizeof text);
     return keyword_find(text, NULL) || keyword_in(load_keywords, text) || keyword_in(velocity_keywords, text)
-        || keyword_in(ghost_keywords, text) || ended_block(text);
+        || keyword_in(solid_keywords, text) || keyword_in(ghost_keywords, text) || block_of_end(text);
 }
 
 /* Whether a word is a command in its full spelling; a file or a name may begin like one. */
@@ -149,6 +149,14 @@ static bool is_command(const struct deck_word *word)
     char text[SHOWN];
     const struct keyword *row = keyword_find(text_copy(word, text, sizeof text), NULL);
     return row && (strcasecmp(text, row->name) == 0 || (row->long_name && strcasecmp(text, row->long_name) == 0));
+}
+
+/* Whether a word is a step of a solid, or ends its block. */
+static bool is_step(const struct deck_word *word)
+{
+    char text[SHOWN];
+    const struct keyword *row = keyword_in(solid_keywords, text_copy(word, text, sizeof text));
+    return strcasecmp(text, row ? row->name : "endp") == 0;
 }
 
 void reader_unknown(struct reader *reader, const struct deck_word *word, const char *kind, const char *nearest,
@@ -227,7 +235,7 @@ static bool is_missing(struct reader *reader, const struct argument *argument)
     }
     bool at_line_end = reader_at_line_end(reader);
     if (argument->kind == ARGUMENT_WORD)
-        return at_line_end && is_command(&next);
+        return at_line_end && (is_command(&next) || (reader->block.is_open && is_step(&next)));
     if (reader_is_real(&next, &real))
         return reader->in_materials && is_material_id(reader);
     return reader_is_keyword(&next) || (at_line_end && !strchr("0123456789+-.", *next.text));
@@ -279,6 +287,18 @@ int reader_switch(struct reader *reader, const struct value *value, const char *
     if (strcasecmp(word, "off") == 0)
         return 0;
     diagnostics_error(reader->diagnostics, value->word.place, "%s must be on or off, not '%s'", owner, word);
+    return -1;
+}
+
+int reader_axis(struct reader *reader, const struct value *value)
+{
+    char shown[SHOWN];
+    static const char names[] = "xyzXYZ123";
+    const char *found = value->word.length == 1 ? strchr(names, value->word.text[0]) : NULL;
+    if (found)
+        return (int)(found - names) % 3;
+    diagnostics_error(reader->diagnostics, value->word.place, "the axis must be x, y or z, not '%s'",
+                      text_show(&value->word, shown, sizeof shown));
     return -1;
 }
 
@@ -509,9 +529,9 @@ static void unknown_command(struct reader *reader, const struct deck_word *word,
         unexpected_number(reader, word, "a keyword", reader->command);
         return;
     }
-    if (ended_block(text)) {
+    if (block_of_end(text)) {
         diagnostics_error(reader->diagnostics, word->place, "'%.4s' ends no block; expected '%s' before it", text,
-                          ended_block(text));
+                          block_of_end(text));
         return;
     }
     const char *nearest = keyword_nearest_top(text);

@@ -11,6 +11,15 @@
 
 enum { READER_DEPTH = 4 }; /* of blocks in blocks, which only wrong decks have */
 
+struct solid;
+
+/* The block of part solid that is being read. */
+struct reader_solid {
+    bool is_open;
+    struct solid *solid; /* NULL where its lattice is wrong: the steps are checked as far as can be */
+    long steps;          /* read so far, wrong ones too */
+};
+
 struct reader {
     struct deck_text *text;
     struct diagnostics *diagnostics;
@@ -26,6 +35,7 @@ struct reader {
     bool has_scheme;               /* some scheme was switched on at some place */
     bool scheme_is_on[3];          /* by enum scheme */
     bool has_output_interval;
+    struct reader_solid block;
     bool has_plot_box;             /* pt2d was read: it holds for bodies that follow */
     double plot_box[6];
     uint64_t missing[CATEGORY_COUNT]; /* words reported as missing, like scene.given */
@@ -93,6 +103,16 @@ int reader_switch(struct reader *reader, const struct value *value, const char *
 /* Takes an optional word of the same line if it is one of `names` (ended by NULL); returns its
  * index or -1. */
 int reader_optional(struct reader *reader, const char *const *names);
+
+/* An axis as x, y, z or 1, 2, 3: 0, 1, 2; -1 and an error otherwise. */
+int reader_axis(struct reader *reader, const struct value *value);
+
+/* Reads the steps of part solid up to endp and joins them to `solid`; where it is NULL they are only
+ * checked. Returns whether all is right. */
+bool reader_solid_block(struct reader *reader, struct solid *solid);
+
+/* Takes the steps of a solid that was not recognised as one, where some follow. */
+void reader_skip_solid(struct reader *reader);
 
 /* Checks that need the whole deck (categories' own files). */
 void reader_finish_general(struct reader *reader, struct deck_place end);

@@ -26,7 +26,7 @@ void scene_close(struct scene *scene)
     if (!scene)
         return;
     for (size_t b = 0; b < scene->n_bodies; b++)
-        memory_free(scene->bodies[b].generator.points);
+        generator_close(&scene->bodies[b].generator);
     memory_free(scene->title);
     memory_free(scene->job);
     memory_free(scene->materials);

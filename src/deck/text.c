@@ -5,6 +5,7 @@
 #include "deck/diagnostics.h"
 
 #include <errno.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -52,42 +53,67 @@ void text_close(struct deck_text *text)
     memory_free(text);
 }
 
-/* Reads all of a stream into a growing array. Returns 0 or an errno value. */
-static int read_all(FILE *stream, char **bytes, size_t *size)
+/* Reads all of a stream into a growing array. Returns 0 or an errno value; EFBIG for more than
+ * `most` bytes. */
+static int read_all(FILE *stream, size_t most, char **bytes, size_t *size)
 {
     size_t capacity = 0, used = 0;
     char *array = NULL;
-    for (;;) {
+    while (used <= most) {
         array = memory_grow(array, &capacity, used + 65536, 1, "the deck");
         size_t got = fread(array + used, 1, capacity - used, stream);
         used += got;
         if (got == 0)
             break;
     }
-    int failure = ferror(stream) ? (errno ? errno : EIO) : 0;
+    int failure = ferror(stream) ? (errno ? errno : EIO) : used > most ? EFBIG : 0;
     *bytes = array;
     *size = used;
     return failure;
 }
 
-int text_include_file(struct deck_text *text, const char *path)
+int text_read_file(const struct deck_text *text, const char *path, size_t most, char **bytes, size_t *size)
 {
     bool standard = strcmp(path, "-") == 0;
+    *bytes = NULL;
+    *size = 0;
     if (text->refuses_includes)
         return EPERM;
     errno = 0;
     FILE *stream = standard ? stdin : fopen(path, "rb");
     if (!stream)
         return errno ? errno : EIO;
-    char *bytes;
-    size_t size;
-    int failure = read_all(stream, &bytes, &size);
+    int failure = read_all(stream, most, bytes, size);
     if (!standard)
         fclose(stream);
+    return failure;
+}
+
+int text_include_file(struct deck_text *text, const char *path)
+{
+    char *bytes;
+    size_t size;
+    int failure = text_read_file(text, path, SIZE_MAX / 4, &bytes, &size);
     if (!failure)
-        text_include_memory(text, standard ? "<stdin>" : path, bytes, size);
+        text_include_memory(text, strcmp(path, "-") == 0 ? "<stdin>" : path, bytes, size);
     memory_free(bytes);
     return failure;
+}
+
+char *text_path(const struct deck_text *text, const struct deck_word *word)
+{
+    const char *deck = text->files[word->place.file].name, *name = word->text;
+    size_t length = word->length;
+    if (*name == '"') {
+        name++;
+        length -= length > 1 && name[length - 2] == '"' ? 2 : 1;
+    }
+    const char *slash = strrchr(deck, '/');
+    size_t folder = slash && (length == 0 || name[0] != '/') ? (size_t)(slash - deck) + 1 : 0;
+    char *path = memory_array(folder + length + 1, 1, "a file name");
+    memcpy(path, deck, folder);
+    memcpy(path + folder, name, length);
+    return path;
 }
 
 void text_include_memory(struct deck_text *text, const char *name, const char *bytes, size_t size)

@@ -43,7 +43,16 @@ int text_include_file(struct deck_text *text, const char *path);
 /* The same with `size` bytes of memory, copied, under a name for messages. */
 void text_include_memory(struct deck_text *text, const char *name, const char *bytes, size_t size);
 
-/* Makes text_include_file fail with EPERM: what is read from memory stays there. */
+/* All bytes of a file that a deck names ("-" is standard input), at most `most` of them; the caller
+ * frees them with memory_free, also on failure. Returns 0, or an errno value: EFBIG where there
+ * are more. */
+int text_read_file(const struct deck_text *text, const char *path, size_t most, char **bytes, size_t *size);
+
+/* The path of a file that a word, quoted or not, names: seen from the folder of the deck in which
+ * the word stands. The caller frees it with memory_free. */
+char *text_path(const struct deck_text *text, const struct deck_word *word);
+
+/* Makes text_include_file and text_read_file fail with EPERM: what is read from memory stays there. */
 void text_refuse_includes(struct deck_text *text);
 
 /* The next word, or false at the end of the last file. */

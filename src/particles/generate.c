@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "particles/generate.h"
+#include "base/memory.h"
+#include "particles/solid.h"
 
 #include <math.h>
 #include <strings.h>
@@ -266,6 +268,48 @@ static void cylinder_visit(const struct generator *g, generator_visit *visit, vo
             }
 }
 
+/* --- soli: shapes joined and cut, x fastest --- */
+
+enum { SOLID_ORIGIN = 0 };
+
+static double solid_points(const struct generator *g)
+{
+    return solid_candidates(g->solid);
+}
+
+static long solid_number(const struct generator *g)
+{
+    return solid_count(g->solid);
+}
+
+/* What a line of a solid's points is given to. */
+struct line_context {
+    const struct generator *generator;
+    generator_visit *visit;
+    void *context;
+};
+
+static void visit_line(void *context, const struct solid_line *line)
+{
+    const struct line_context *to = context;
+    const struct generator *g = to->generator;
+    const double *origin = &g->number[SOLID_ORIGIN];
+    for (long n = 0; n < line->count; n++) {
+        if (!line->inside[n])
+            continue;
+        double position[3] = {origin[0] + ((double)(line->i + n) + 0.5) * g->spacing,
+                              origin[1] + ((double)line->j + 0.5) * g->spacing,
+                              origin[2] + ((double)line->k + 0.5) * g->spacing};
+        to->visit(to->context, position, lattice_mass(g));
+    }
+}
+
+static void visit_solid(const struct generator *g, generator_visit *visit, void *context)
+{
+    struct line_context to = {g, visit, context};
+    solid_visit(g->solid, visit_line, &to);
+}
+
 static const struct generator_row rows[] = {
     {"poin", "point", "points one by one: n times `id material mass x y z`", NULL, point_candidates, 1, NULL, point_visit},
     {"bloc", "block", "block of nx x ny x nz points from its corner, x fastest",
@@ -288,6 +332,10 @@ static const struct generator_row rows[] = {
                                LENGTH("yb"), LENGTH("zb"), {"radius", "length", ARGUMENT_REAL, LIMIT_POSITIVE},
                                {"height", "length", ARGUMENT_REAL, LIMIT_POSITIVE}, {0}},
      cylinder_candidates, 4, cylinder_count, cylinder_visit},
+    {"soli", "solid", "block of shapes joined, cut away or kept, up to endp, on the lattice with a corner (not a point) at "
+                      "x0, y0, z0; x fastest",
+     (const struct argument[]){MATERIAL, DENSITY, SPACING, LENGTH("x0"), LENGTH("y0"), LENGTH("z0"), {0}},
+     solid_points, 1000, solid_number, visit_solid},
 };
 
 const struct generator_row *generator_rows(int *count)
@@ -308,4 +356,12 @@ long generator_count(const struct generator *generator)
 {
     const struct generator_row *row = generator->row;
     return row->count ? row->count(generator) : (long)row->candidates(generator);
+}
+
+void generator_close(struct generator *generator)
+{
+    memory_free(generator->points);
+    solid_close(generator->solid);
+    generator->points = NULL;
+    generator->solid = NULL;
 }

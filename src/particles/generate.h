@@ -18,6 +18,7 @@ struct generator_point {
 };
 
 struct generator_row;
+struct solid;
 
 /* What a `part` block says. */
 struct generator {
@@ -28,6 +29,7 @@ struct generator {
     double number[GENERATOR_NUMBERS]; /* the row's own arguments */
     struct generator_point *points;   /* of the point list */
     long n_points;
+    struct solid *solid;              /* of solid */
 };
 
 /* Called for every point of a generator, in the order of the particle numbers. */
@@ -51,5 +53,8 @@ const struct generator_row *generator_rows(int *count);
 
 /* Number of points. */
 long generator_count(const struct generator *generator);
+
+/* Frees the point list and the solid. */
+void generator_close(struct generator *generator);
 
 #endif

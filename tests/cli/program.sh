@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The program as a user runs it: exit codes, messages, files. sh tests/cli/program.sh BUILD
 build=$(cd "$1" && pwd) || exit 2
+root=$(cd "$(dirname "$0")/../.." && pwd) || exit 2
 mpm3d=$build/mpm3d
 folder=$(mktemp -d) || exit 2
 trap 'rm -rf "$folder"' EXIT INT TERM
@@ -89,6 +90,13 @@ expect "output folder that is a file" 4 "cannot create" "$mpm3d" -o good.mpm goo
 sed -n '2,/^endi/p' good.out >again.mpm
 expect "the log's deck can be run" 0 "no particle lost" "$mpm3d" again.mpm
 check "the log's deck gives the same" cmp again_anim.dat good_anim.dat
+
+# a solid too, with its file, from another folder
+expect "solids" 0 "no particle lost" "$mpm3d" -o solid "$root/tests/decks/coverage/solid_shapes.mpm"
+sed -n '2,/^endi/p' solid/solid_shapes.out >solid_again.mpm
+expect "the log's solids can be run" 0 "no particle lost" "$mpm3d" solid_again.mpm
+check "the log's solids are the same" cmp solid_again_anim.dat solid/solid_shapes_anim.dat
+expect "help of a solid" 0 "cut   takes the points inside a shape away" "$mpm3d" --help solid
 
 deck 1 "names mpm3d" "head mpm3d" "digits 4" >bare.mpm
 expect "bare names" 0 "no particle lost" "$mpm3d" bare.mpm

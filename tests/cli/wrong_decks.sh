@@ -193,6 +193,50 @@ if [ "$(id -u)" -ne 0 ]; then
     { sed -n 1,17p "$base"; echo 'incl "sub/locked.mpm"'; sed -n '21,$p' "$base"; } >include_unreadable.mpm
     add include_unreadable 2 include_unreadable.mpm:18:6:error "Permission denied"
 fi
+# Surfaces of part solid; their path is seen from the deck that names them.
+# box_stl LEFT_OUT: a box from 1 to 3, without one of its twelve triangles where LEFT_OUT is 1 to 12
+box_stl() {
+    awk -v without="$1" 'BEGIN {
+        split("000 010 110 000 110 100 001 101 111 001 111 011 000 100 101 000 101 001 010 011 111 010 111 110 " \
+              "000 001 011 000 011 010 100 110 111 100 111 101", corner, " ")
+        print "solid box"
+        for (t = 1; t <= 12; t++) {
+            if (t == without) continue
+            print "facet normal 0 0 0\nouter loop"
+            for (c = 3 * t - 2; c <= 3 * t; c++) print "vertex", 1 + 2 * substr(corner[c], 1, 1), 1 + 2 * substr(corner[c], 2, 1), 1 + 2 * substr(corner[c], 3)
+            print "endloop\nendfacet"
+        }
+        print "endsolid box"
+    }'
+}
+# solid_deck STEP: the block of the base deck as a solid
+solid_deck() { sed -n 1,20p "$base"; printf 'part solid 1\n1 7.8e-3 0.5 0 0 0\n%s\nendp\n' "$1"; sed -n '23,$p' "$base"; }
+box_stl 0 >sub/box.stl
+box_stl 0 >"sub/two words.stl"
+solid_deck 'add stl sub/box.stl' >right_stl.mpm
+add right_stl 0 "" ""
+solid_deck 'add stl "sub/two words.stl" move 0 0 0 scale 1 cut box 5 6 5 6 5 6' >right_stl_blank.mpm
+add right_stl_blank 0 "" ""
+printf 'part solid 1\n1 7.8e-3 0.5 0 0 0\nadd stl box.stl\nendp\n' >sub/solid.mpm
+{ sed -n 1,20p "$base"; echo 'incl sub/solid.mpm'; sed -n '23,$p' "$base"; } >right_stl_of_include.mpm
+add right_stl_of_include 0 "" ""
+box_stl 7 >sub/open.stl
+solid_deck 'add stl sub/open.stl' >stl_open.mpm
+add stl_open 2 stl_open.mpm:23:9:error "the surface of 'sub/open.stl' is not closed: 3 edges do not have two triangles of opposite direction, the first from 3 3 3 to 1 3 3 has 1"
+sed -n 1,40p sub/box.stl >sub/cut.stl
+solid_deck 'add stl sub/cut.stl' >stl_cut.mpm
+add stl_cut 2 stl_cut.mpm:23:9:error "cannot use 'sub/cut.stl': line 41: the file ends here, it is cut; expected "
+solid_deck 'add stl right_stl.mpm' >stl_is_deck.mpm
+add stl_is_deck 2 stl_is_deck.mpm:23:9:error "cannot use 'right_stl.mpm': "
+solid_deck 'add stl sub' >stl_folder.mpm
+add stl_folder 2 stl_folder.mpm:23:9:error "cannot read 'sub'"
+solid_deck 'add stl -' >stl_standard_input.mpm
+add stl_standard_input 2 stl_standard_input.mpm:23:9:error "standard input can't be a shape's file"
+solid_deck 'add stl sub/box.stl scale 1e7' >stl_scale.mpm
+add stl_scale 2 stl_scale.mpm:23:9:error "the surface of 'sub/box.stl' reaches more than a million spacings"
+{ box_stl 0; box_stl 0 | sed 's/vertex 1/vertex 2/; s/vertex 3/vertex 4/'; } >sub/overlap.stl
+solid_deck 'add stl sub/overlap.stl' >stl_overlap.mpm
+add stl_overlap 0 stl_overlap.mpm:23:9:warning "shells that overlap: the 32 points inside two of them are outside"
 add directory 4 "" "cannot read 'directory.mpm'"
 add not_there 4 "" "cannot read 'not_there.mpm': No such file"
 
