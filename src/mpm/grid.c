@@ -16,30 +16,34 @@ struct span {
     int offset, node, count, place;
 };
 
-/* The rows of a patch: all triples of spans, their nodes along x side by side; long ones first. */
+/* Adds the rows of `length` nodes: all triples of spans, their nodes along x side by side. */
+static void add_rows(struct patch_layout *layout, const struct span *spans, int n, int length)
+{
+    for (int triple = 0; triple < n * n * n; triple++) {
+        const struct span *x = &spans[triple % n], *y = &spans[triple / n % n], *z = &spans[triple / (n * n)];
+        for (int jk = 0; jk < y->count * z->count && x->count == length; jk++) {
+            int j = jk % y->count, k = jk / y->count;
+            layout->rows[layout->end++] = (struct patch_row){
+                (1 + x->offset) + 3 * (1 + y->offset) + 9 * (1 + z->offset),
+                (1 - x->offset) + 3 * (1 - y->offset) + 9 * (1 - z->offset),
+                x->node + BLOCK_EDGE * (y->node + j + BLOCK_EDGE * (z->node + k)),
+                x->place + layout->row * (y->place + j + layout->edge * (z->place + k))};
+        }
+    }
+}
+
 static struct patch_layout lay_out(int low, int high)
 {
     const struct span all[] = {{-1, BLOCK_EDGE - 1, 1, 0}, {0, 0, BLOCK_EDGE, low}, {1, 0, high, low + BLOCK_EDGE}};
     const struct span *spans = low > 0 ? all : all + 1;
     const int n = low > 0 ? 3 : 2, edge = low + BLOCK_EDGE + high;
     const int row = low + high > 2 ? 8 : edge;
-    struct patch_layout layout = {edge, row, (row * edge * edge + 7) / 8 * 8, low, 0, 0, {{0}}};
-    for (int pass = 0; pass < 2; pass++) {
-        for (int triple = 0; triple < n * n * n; triple++) {
-            const struct span *x = &spans[triple % n], *y = &spans[triple / n % n], *z = &spans[triple / (n * n)];
-            bool is_long = x->count == BLOCK_EDGE;
-            for (int jk = 0; jk < y->count * z->count && is_long == (pass == 0); jk++) {
-                int j = jk % y->count, k = jk / y->count;
-                layout.rows[layout.n_rows++] = (struct patch_row){
-                    (1 + x->offset) + 3 * (1 + y->offset) + 9 * (1 + z->offset),
-                    (1 - x->offset) + 3 * (1 - y->offset) + 9 * (1 - z->offset),
-                    x->node + BLOCK_EDGE * (y->node + j + BLOCK_EDGE * (z->node + k)),
-                    x->place + row * (y->place + j + edge * (z->place + k)), x->count};
-            }
-        }
-        if (pass == 0)
-            layout.n_long = layout.n_rows;
-    }
+    struct patch_layout layout = {.edge = edge, .row = row, .nodes = (row * edge * edge + 7) / 8 * 8, .origin = low};
+    add_rows(&layout, spans, n, BLOCK_EDGE);
+    layout.end_of_four = layout.end;
+    add_rows(&layout, spans, n, 2);
+    layout.end_of_two = layout.end;
+    add_rows(&layout, spans, n, 1);
     return layout;
 }
 
@@ -57,10 +61,7 @@ struct grid *grid_open(const struct cell_list *cells, struct grid_form form, con
     grid->patch_fields = form.patch_fields;
     grid->version = -1;
     grid->shared_blocks = SHARED_BLOCKS;
-    int largest = grid->fields * BLOCK_CELLS;
-    if (grid->patch_fields * grid->layout.nodes > largest)
-        largest = grid->patch_fields * grid->layout.nodes;
-    grid->nothing = memory_array((size_t)largest, sizeof *grid->nothing, "the grid");
+    grid->nothing = memory_array((size_t)grid->fields * BLOCK_CELLS, sizeof *grid->nothing, "the grid");
     return grid;
 }
 
@@ -162,55 +163,60 @@ void grid_follow(struct grid *grid)
         }
 }
 
-/* The nodes of a row in one block. */
+/* Nodes of a row: all four of a block, or two. */
 typedef double four __attribute__((vector_size(BLOCK_EDGE * sizeof(double)), aligned(sizeof(double)), may_alias));
+typedef double two __attribute__((vector_size(2 * sizeof(double)), aligned(sizeof(double)), may_alias));
+
+/* Goes over the rows from `begin` to `stop`, of nodes of one type, and over `count` fields of each. */
+#define READ_ROWS(type, begin, stop)                                                                                   \
+    for (int r = begin; r < stop; r++) {                                                                               \
+        const double *from = source[layout->rows[r].neighbour] + layout->rows[r].node;                                 \
+        double *to = patch + layout->rows[r].place;                                                                    \
+        for (int f = 0; f < count; f++, from += BLOCK_CELLS, to += nodes)                                              \
+            *(type *)to = *(const type *)from;                                                                         \
+    }
 
 THREADS_VECTORISED
 void grid_read_patch(const struct grid *grid, int32_t block, int first, int count, double *patch)
 {
     const int32_t *neighbour = grid->cells->blocks[block].neighbour;
     const struct patch_layout *layout = &grid->layout;
+    const int nodes = layout->nodes;
     const double *source[BLOCK_NEIGHBOURS];
     for (int i = 0; i < BLOCK_NEIGHBOURS; i++)
         source[i] = neighbour[i] < 0 ? grid->nothing : grid_field(grid, neighbour[i], first);
-    for (int f = 0; f < count; f++) {
-        double *to = patch + f * layout->nodes;
-        const int field = f * BLOCK_CELLS;
-        for (int r = 0; r < layout->n_long; r++) {
-            const struct patch_row *row = &layout->rows[r];
-            *(four *)(to + row->place) = *(const four *)(source[row->neighbour] + field + row->node);
-        }
-        for (int r = layout->n_long; r < layout->n_rows; r++) {
-            const struct patch_row *row = &layout->rows[r];
-            for (int i = 0; i < row->count; i++)
-                to[row->place + i] = source[row->neighbour][field + row->node + i];
-        }
-    }
+    READ_ROWS(four, 0, layout->end_of_four)
+    READ_ROWS(two, layout->end_of_four, layout->end_of_two)
+    READ_ROWS(double, layout->end_of_two, layout->end)
 }
+
+/* The other way, and adding. A block that gives nothing is left out: it has no patch. */
+#define COLLECT_ROWS(type, begin, stop)                                                                                \
+    for (int r = begin; r < stop; r++) {                                                                               \
+        const double *from = source[layout->rows[r].mirrored];                                                         \
+        if (!from)                                                                                                     \
+            continue;                                                                                                  \
+        from += layout->rows[r].place;                                                                                 \
+        double *to = sum + layout->rows[r].node;                                                                       \
+        for (int f = 0; f < count; f++, from += nodes, to += BLOCK_CELLS)                                              \
+            *(type *)to += *(const type *)from;                                                                        \
+    }
 
 THREADS_VECTORISED
 void grid_collect(struct grid *grid, int32_t b, int first, int count, int from_field)
 {
     const int32_t *neighbour = grid->cells->blocks[b].neighbour;
     const struct patch_layout *layout = &grid->layout;
+    const int nodes = layout->nodes;
     const double *source[BLOCK_NEIGHBOURS];
+    double *sum = grid_field(grid, b, first);
     for (int i = 0; i < BLOCK_NEIGHBOURS; i++)
-        source[i] = neighbour[i] < 0 || neighbour[i] >= grid->cells->active ? grid->nothing
+        source[i] = neighbour[i] < 0 || neighbour[i] >= grid->cells->active ? NULL
                                                                             : grid_patch(grid, neighbour[i], from_field);
-    for (int f = 0; f < count; f++) {
-        double *to = grid_field(grid, b, first + f);
-        const int field = f * layout->nodes;
-        memset(to, 0, BLOCK_CELLS * sizeof *to);
-        for (int r = 0; r < layout->n_long; r++) {
-            const struct patch_row *row = &layout->rows[r];
-            *(four *)(to + row->node) += *(const four *)(source[row->mirrored] + field + row->place);
-        }
-        for (int r = layout->n_long; r < layout->n_rows; r++) {
-            const struct patch_row *row = &layout->rows[r];
-            for (int i = 0; i < row->count; i++)
-                to[row->node + i] += source[row->mirrored][field + row->place + i];
-        }
-    }
+    memset(sum, 0, (size_t)count * BLOCK_CELLS * sizeof *sum);
+    COLLECT_ROWS(four, 0, layout->end_of_four)
+    COLLECT_ROWS(two, layout->end_of_four, layout->end_of_two)
+    COLLECT_ROWS(double, layout->end_of_two, layout->end)
 }
 
 /* P += F step; both zero in fixed directions. */

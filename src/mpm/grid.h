@@ -25,7 +25,7 @@ enum { PATCH_FIELDS = 7, PATCH_FIELDS_CONTACT = 10, LARGEST_PATCH = 392 };
 struct patch_row {
     int neighbour; /* index of the block among the neighbours */
     int mirrored;  /* seen from that block: index of the block whose patch this is */
-    int node, place, count;
+    int node, place;
 };
 
 struct patch_layout {
@@ -33,8 +33,8 @@ struct patch_layout {
     int row;    /* numbers from one row to the next: rows of wide supports don't cross cache lines */
     int nodes;  /* numbers to keep for a field */
     int origin; /* place of the block's own node 0 along an axis */
-    int n_long, n_rows; /* long rows, of four nodes, come first */
-    struct patch_row rows[160];
+    struct patch_row rows[160]; /* those of four nodes first, then those of two, then single nodes */
+    int end_of_four, end_of_two, end;
 };
 
 struct scene_hold;
