@@ -20,9 +20,10 @@ struct workspace {
     double local[3][CHUNK_ROOM];    /* position in the cell, 0 ... 1 */
     double gathered[3][CHUNK_ROOM]; /* velocity or acceleration from the grid */
     double strain[6][CHUNK_ROOM], spin[3][CHUNK_ROOM], trace[CHUNK_ROOM];
-    double volume_before[CHUNK_ROOM], work[CHUNK_ROOM];
+    double volume_before[CHUNK_ROOM], work[CHUNK_ROOM], terms[2][CHUNK_ROOM];
     double copy[48][CHUNK_ROOM]; /* columns of a portion that is not in one piece */
     double patch[8 * LARGEST_PATCH];
+    double vectors[2][LANES * LARGEST_PATCH]; /* two vector fields of the patch, node by node */
     double weight[3][3][CHUNK_ROOM], slope[3][3][CHUNK_ROOM]; /* of wide supports, per axis and node */
     int32_t base[CHUNK_ROOM];                                 /* their lowest node in the patch */
     uint8_t cell[CHUNK_ROOM];

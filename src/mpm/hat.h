@@ -16,11 +16,11 @@ static const double HAT_FIXED_HALF_WIDTH = 0.25;
  * quadratic B-spline. */
 THREADS_INLINE void hat_averaged(double r, double l, double *weight, double *slope)
 {
-    double distance = fabs(r), sign = r < 0 ? -1 : 1;
-    double tail = 1 + l - distance;
-    bool is_top = distance < l, is_side = distance <= 1 - l, is_out = tail <= 0;
-    *weight = is_top ? 1 - (r * r + l * l) / (2 * l) : is_side ? 1 - distance : is_out ? 0 : tail * tail / (4 * l);
-    *slope = is_top ? -r / l : is_side ? -sign : is_out ? 0 : -sign * tail / (2 * l);
+    double distance = fabs(r);
+    double rest = 1 + l - distance, tail = rest > 0 ? rest : 0;
+    bool is_top = distance < l, is_side = distance <= 1 - l;
+    *weight = is_top ? 1 - (r * r + l * l) / (2 * l) : is_side ? 1 - distance : tail * tail / (4 * l);
+    *slope = -copysign(is_top ? distance / l : is_side ? 1 : tail / (2 * l), r);
 }
 
 #endif
