@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dpm: Drucker-Prager with tension cut-off (spec 8.1). */
-#include "base/tensor.h"
-#include "material/law.h"
-
-#include <math.h>
+#include "material/plastic.h"
 
 enum { FRICTION = LAW_POISSON + 1, COHESION, DILATANCY, TENSION };
 
@@ -13,31 +10,29 @@ static const char *prepare(struct material *material)
     return NULL;
 }
 
-/* One point: trial stress in, returned stress out; adds to the plastic strain. */
-static void return_stress(const struct law_batch *batch, int j, double stress[6])
+/* One point: returns the trial stress, on the cone or to the tension cut-off, and adds to the plastic
+ * strain. Without branches, so that several points are worked on at a time. */
+THREADS_INLINE void update_point(const struct law_batch *batch, int j, double shear, double bulk)
 {
     const double *k = batch->material->parameter;
-    const double shear = batch->material->shear_modulus, bulk = batch->material->bulk_modulus;
     const double friction = k[FRICTION], dilatancy = k[DILATANCY], cohesion = k[COHESION];
-    const double cutoff = friction == 0 ? 0 : fmin(k[TENSION], cohesion / friction);
-    double mean = tensor_mean(stress), scale = 1, new_mean = mean;
-    double tau = tensor_von_mises(stress[0], stress[1], stress[2], stress[3], stress[4], stress[5]) / sqrt(3.0);
-    double excess = tau + friction * mean - cohesion;
-    bool returns_shear = mean < cutoff && excess > 0;
-    if (mean >= cutoff) {
-        double slope = sqrt(1 + friction * friction) - friction;
-        returns_shear = tau - (cohesion - friction * cutoff) - slope * (mean - cutoff) > 0;
-        if (!returns_shear) {
-            new_mean = cutoff;
-            batch->plastic_strain[j] += (mean - cutoff) / bulk * sqrt(2.0) / 3;
-        }
-    }
-    if (returns_shear) {
-        double multiplier = excess / (shear + bulk * friction * dilatancy);
-        new_mean = mean - bulk * dilatancy * multiplier;
-        scale = (cohesion - friction * new_mean) / tau;
-        batch->plastic_strain[j] += multiplier * sqrt(1.0 / 3 + 2.0 / 9 * dilatancy * dilatancy);
-    }
+    const double limit = cohesion / friction, tension = k[TENSION];
+    const double cutoff = friction == 0 ? 0 : tension < limit ? tension : limit;
+    const double slope = sqrt(1 + friction * friction) - friction;
+    double stress[6];
+    law_elastic_trial(batch, j, shear, bulk, stress);
+    double mean = tensor_mean(stress), tau = plastic_von_mises(stress) / sqrt(3.0);
+    double excess = tau + friction * mean - cohesion, excess_tension = mean - cutoff;
+    bool is_tensile = mean >= cutoff;
+    bool shears = (is_tensile ? tau - (cohesion - friction * cutoff) - slope * excess_tension : excess) > 0;
+    bool tears = is_tensile && !shears;
+    double multiplier = excess / (shear + bulk * friction * dilatancy);
+    double sheared_mean = mean - bulk * dilatancy * multiplier;
+    double new_mean = shears ? sheared_mean : tears ? cutoff : mean;
+    double scale = shears ? (cohesion - friction * sheared_mean) / tau : 1;
+    batch->plastic_strain[j] += shears ? multiplier * sqrt(1.0 / 3 + 2.0 / 9 * dilatancy * dilatancy)
+                              : tears  ? excess_tension / bulk * sqrt(2.0) / 3
+                                       : 0;
     batch->equivalent_stress[j] = sqrt(3.0) * tau * scale; /* negative where the return passes the apex */
     for (int a = 0; a < 3; a++) {
         batch->stress[a][j] = new_mean + scale * (stress[a] - mean);
@@ -45,13 +40,13 @@ static void return_stress(const struct law_batch *batch, int j, double stress[6]
     }
 }
 
+THREADS_VECTORISED
 static void update(const struct law_batch *batch)
 {
-    for (int j = 0; j < batch->count; j++) {
-        double trial[6];
-        law_elastic_trial(batch, j, batch->material->shear_modulus, batch->material->bulk_modulus, trial);
-        return_stress(batch, j, trial);
-    }
+    const double shear = batch->material->shear_modulus, bulk = batch->material->bulk_modulus;
+#pragma omp simd
+    for (int j = 0; j < batch->count; j++)
+        update_point(batch, j, shear, bulk);
 }
 
 const struct law law_dpm = {

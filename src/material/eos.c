@@ -14,10 +14,22 @@ static void keep_constants(struct material *material, const double *values)
         material->eos_constant[i] = values[i];
 }
 
-static struct eos_pressure polynomial(const double *c, double density, double initial_density)
+/* mu = rho / rho0 - 1 of point j. */
+THREADS_INLINE double compression(const struct law_batch *batch, int j)
 {
-    double mu = density / initial_density - 1;
-    return (struct eos_pressure){c[0] + mu * (c[1] + mu * (c[2] + mu * c[3])), c[4] + mu * (c[5] + mu * c[6])};
+    return batch->mass[j] / batch->volume[j] / batch->material->density - 1;
+}
+
+THREADS_VECTORISED
+static void polynomial(const struct law_batch *batch)
+{
+    const double *c = batch->material->eos_constant;
+#pragma omp simd
+    for (int j = 0; j < batch->count; j++) {
+        double mu = compression(batch, j);
+        batch->terms[0][j] = c[0] + mu * (c[1] + mu * (c[2] + mu * c[3]));
+        batch->terms[1][j] = c[4] + mu * (c[5] + mu * c[6]);
+    }
 }
 
 /* --- 2: Mie-Grueneisen --- */
@@ -32,29 +44,43 @@ static void prepare_grueneisen(struct material *material, const double *values)
     c[4] = gamma;
 }
 
-static struct eos_pressure grueneisen(const double *c, double density, double initial_density)
+THREADS_VECTORISED
+static void grueneisen(const struct law_batch *batch)
 {
-    double mu = density / initial_density - 1;
-    if (mu <= 0)
-        return (struct eos_pressure){c[0] * mu, 0};
-    return (struct eos_pressure){mu * (c[0] + mu * (c[1] + mu * c[2])) * (1 - c[3] * mu / (2 * density)), c[4]};
+    const double *c = batch->material->eos_constant;
+#pragma omp simd
+    for (int j = 0; j < batch->count; j++) {
+        double mu = compression(batch, j), density = batch->mass[j] / batch->volume[j];
+        double compressed = mu * (c[0] + mu * (c[1] + mu * c[2])) * (1 - c[3] * mu / (2 * density));
+        batch->terms[0][j] = mu <= 0 ? c[0] * mu : compressed;
+        batch->terms[1][j] = mu <= 0 ? 0 : c[4];
+    }
 }
 
 /* --- 3: Jones-Wilkins-Lee --- */
 
-static struct eos_pressure jones_wilkins_lee(const double *c, double density, double initial_density)
+static void jones_wilkins_lee(const struct law_batch *batch)
 {
-    double volume = initial_density / density;
-    double a = c[0] * (1 - c[4] / (c[2] * volume)) * exp(-c[2] * volume)
-             + c[1] * (1 - c[4] / (c[3] * volume)) * exp(-c[3] * volume);
-    return (struct eos_pressure){a, c[4] / volume};
+    const double *c = batch->material->eos_constant;
+    for (int j = 0; j < batch->count; j++) {
+        double volume = batch->material->density / (batch->mass[j] / batch->volume[j]);
+        batch->terms[0][j] = c[0] * (1 - c[4] / (c[2] * volume)) * exp(-c[2] * volume)
+                           + c[1] * (1 - c[4] / (c[3] * volume)) * exp(-c[3] * volume);
+        batch->terms[1][j] = c[4] / volume;
+    }
 }
 
 /* --- 4: weakly compressible --- */
 
-static struct eos_pressure weakly_compressible(const double *c, double density, double initial_density)
+THREADS_VECTORISED
+static void weakly_compressible(const struct law_batch *batch)
 {
-    return (struct eos_pressure){c[0] * c[0] * (density - initial_density), 0};
+    const double *c = batch->material->eos_constant;
+#pragma omp simd
+    for (int j = 0; j < batch->count; j++) {
+        batch->terms[0][j] = c[0] * c[0] * (batch->mass[j] / batch->volume[j] - batch->material->density);
+        batch->terms[1][j] = 0;
+    }
 }
 
 static const struct eos rows[] = {
@@ -87,37 +113,4 @@ const struct eos *eos_find(long type)
 const struct eos *eos_rows(void)
 {
     return rows;
-}
-
-/* Artificial viscosity pressure (spec 6.5). */
-static double viscous_pressure(const struct law_batch *batch, int j)
-{
-    double rate = batch->trace[j] < 0 ? batch->trace[j] / batch->time_step : 0;
-    double density = batch->mass[j] / batch->volume[j], size = batch->cell_size;
-    return density * size * rate
-         * (batch->bulk_quadratic * size * rate - batch->bulk_linear * batch->material->viscous_speed);
-}
-
-struct eos_update eos_advance(const struct law_batch *batch, int j, double deviator_work, bool is_failed, double factor)
-{
-    const struct material *material = batch->material;
-    const struct eos *eos = material->eos;
-    struct eos_update update = {.mean_before = batch->mean_stress[j],
-                                .half_volume = 0.5 * (batch->volume[j] - batch->volume_before[j])};
-    double initial_volume = batch->mass[j] / material->density;
-    double viscous = eos->computes_viscosity && update.mean_before < 0 ? viscous_pressure(batch, j) : 0;
-    update.work = 0.25 * (batch->volume_before[j] + batch->volume[j]) * deviator_work
-                + update.half_volume * (update.mean_before - 2 * viscous);
-    struct eos_pressure terms = eos->pressure(material->eos_constant, batch->mass[j] / batch->volume[j], material->density);
-    double a = terms.a * factor, b = terms.b * factor;
-    batch->energy[j] += update.work;
-    double pressure = (a + b * batch->energy[j] / initial_volume) / (1 + b * update.half_volume / initial_volume);
-    if (is_failed && pressure < 0)
-        pressure = 0;
-    batch->energy[j] -= update.half_volume * pressure;
-    if (eos->reduces_work)
-        update.work -= update.half_volume * pressure;
-    batch->mean_stress[j] = -pressure;
-    batch->viscous_pressure[j] = viscous;
-    return update;
 }

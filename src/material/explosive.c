@@ -11,8 +11,10 @@ static const char *prepare(struct material *material)
     return NULL;
 }
 
+THREADS_VECTORISED
 static void update(const struct law_batch *batch)
 {
+#pragma omp simd
     for (int j = 0; j < batch->count; j++) {
         double burnt = batch->time > batch->lighting_time[j] ? 1 : 0;
         eos_advance(batch, j, 0, false, burnt);

@@ -15,9 +15,11 @@ static const char *prepare(struct material *material)
     return NULL;
 }
 
+THREADS_VECTORISED
 static void update(const struct law_batch *batch)
 {
     const double rate = batch->material->viscosity / batch->time_step;
+#pragma omp simd
     for (int j = 0; j < batch->count; j++) {
         double deviator[6], work = batch->work[j];
         for (int a = 0; a < 3; a++) {

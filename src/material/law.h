@@ -48,6 +48,7 @@ struct law_batch {
     double *restrict volume;
     const double *restrict mass;
     double *restrict work;              /* room for one number a point */
+    double *restrict terms[2];          /* with equation of state: its terms (eos.h); else room for the law */
     double *restrict stress[6];         /* in: rotated old stress; out: new stress */
     double *restrict energy;            /* internal energy */
     double *restrict viscous_pressure;  /* artificial viscosity pressure q */

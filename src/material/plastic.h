@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Radial return of the von Mises laws, shared by their files. */
+/* Radial return of the von Mises laws, shared by their files. Their loops call a function for one point:
+ * arrays that live in a function are kept in registers, those of a simd loop are not. */
 #ifndef MATERIAL_PLASTIC_H
 #define MATERIAL_PLASTIC_H
 

@@ -14,6 +14,20 @@ static const char *prepare(struct material *material)
     return NULL;
 }
 
+THREADS_INLINE void update_point(const struct law_batch *batch, int j, double shear, double bulk, double hardening)
+{
+    double trial[6];
+    law_elastic_trial(batch, j, shear, bulk, trial);
+    double equivalent = plastic_von_mises(trial);
+    double yield = batch->yield_stress[j];
+    bool yields = equivalent > yield;
+    double increment = yields ? (equivalent - yield) / (3 * shear + hardening) : 0;
+    yield += hardening * increment;
+    batch->plastic_strain[j] += increment;
+    batch->yield_stress[j] = yield;
+    plastic_store(batch, j, trial, yields ? yield / equivalent : 1);
+}
+
 THREADS_VECTORISED
 static void update(const struct law_batch *batch)
 {
@@ -23,18 +37,8 @@ static void update(const struct law_batch *batch)
     const double hardening =
         parameter[LAW_YOUNG] * parameter[TANGENT_MODULUS] / (parameter[LAW_YOUNG] - parameter[TANGENT_MODULUS]);
 #pragma omp simd
-    for (int j = 0; j < batch->count; j++) {
-        double trial[6];
-        law_elastic_trial(batch, j, shear, bulk, trial);
-        double equivalent = plastic_von_mises(trial);
-        double yield = batch->yield_stress[j];
-        bool yields = equivalent > yield;
-        double increment = yields ? (equivalent - yield) / (3 * shear + hardening) : 0;
-        yield += hardening * increment;
-        batch->plastic_strain[j] += increment;
-        batch->yield_stress[j] = yield;
-        plastic_store(batch, j, trial, yields ? yield / equivalent : 1);
-    }
+    for (int j = 0; j < batch->count; j++)
+        update_point(batch, j, shear, bulk, hardening);
 }
 
 const struct law law_pla2 = {

@@ -12,6 +12,16 @@ static const char *prepare(struct material *material)
     return NULL;
 }
 
+THREADS_INLINE void update_point(const struct law_batch *batch, int j, double shear, double bulk, double yield)
+{
+    double trial[6];
+    law_elastic_trial(batch, j, shear, bulk, trial);
+    double equivalent = plastic_von_mises(trial);
+    bool yields = equivalent > yield;
+    batch->plastic_strain[j] += yields ? (equivalent - yield) / (3 * shear) : 0;
+    plastic_store(batch, j, trial, yields ? yield / equivalent : 1);
+}
+
 THREADS_VECTORISED
 static void update(const struct law_batch *batch)
 {
@@ -19,14 +29,8 @@ static void update(const struct law_batch *batch)
     const double bulk = batch->material->bulk_modulus;
     const double yield = batch->material->yield_stress;
 #pragma omp simd
-    for (int j = 0; j < batch->count; j++) {
-        double trial[6];
-        law_elastic_trial(batch, j, shear, bulk, trial);
-        double equivalent = plastic_von_mises(trial);
-        bool yields = equivalent > yield;
-        batch->plastic_strain[j] += yields ? (equivalent - yield) / (3 * shear) : 0;
-        plastic_store(batch, j, trial, yields ? yield / equivalent : 1);
-    }
+    for (int j = 0; j < batch->count; j++)
+        update_point(batch, j, shear, bulk, yield);
 }
 
 const struct law law_pla1 = {

@@ -41,26 +41,30 @@ THREADS_INLINE void hughes_winget(double w1, double w2, double w3, double r[3][3
     r[2][1] = half * w2 * w3 + scale * w1;
 }
 
+THREADS_INLINE void rotate_point(const struct law_batch *batch, int j)
+{
+    double r[3][3], left[3][3];
+    hughes_winget(batch->spin[0][j], batch->spin[1][j], batch->spin[2][j], r);
+    double xx = batch->stress[0][j], yy = batch->stress[1][j], zz = batch->stress[2][j];
+    double yz = batch->stress[3][j], xz = batch->stress[4][j], xy = batch->stress[5][j];
+    for (int a = 0; a < 3; a++) {
+        left[a][0] = r[a][0] * xx + r[a][1] * xy + r[a][2] * xz;
+        left[a][1] = r[a][0] * xy + r[a][1] * yy + r[a][2] * yz;
+        left[a][2] = r[a][0] * xz + r[a][1] * yz + r[a][2] * zz;
+    }
+    batch->stress[0][j] = left[0][0] * r[0][0] + left[0][1] * r[0][1] + left[0][2] * r[0][2];
+    batch->stress[1][j] = left[1][0] * r[1][0] + left[1][1] * r[1][1] + left[1][2] * r[1][2];
+    batch->stress[2][j] = left[2][0] * r[2][0] + left[2][1] * r[2][1] + left[2][2] * r[2][2];
+    batch->stress[3][j] = left[1][0] * r[2][0] + left[1][1] * r[2][1] + left[1][2] * r[2][2];
+    batch->stress[4][j] = left[0][0] * r[2][0] + left[0][1] * r[2][1] + left[0][2] * r[2][2];
+    batch->stress[5][j] = left[0][0] * r[1][0] + left[0][1] * r[1][1] + left[0][2] * r[1][2];
+}
+
 THREADS_VECTORISED
 void law_rotate_exact(const struct law_batch *batch)
 {
     const int count = batch->count;
 #pragma omp simd
-    for (int j = 0; j < count; j++) {
-        double r[3][3], left[3][3];
-        hughes_winget(batch->spin[0][j], batch->spin[1][j], batch->spin[2][j], r);
-        double xx = batch->stress[0][j], yy = batch->stress[1][j], zz = batch->stress[2][j];
-        double yz = batch->stress[3][j], xz = batch->stress[4][j], xy = batch->stress[5][j];
-        for (int a = 0; a < 3; a++) {
-            left[a][0] = r[a][0] * xx + r[a][1] * xy + r[a][2] * xz;
-            left[a][1] = r[a][0] * xy + r[a][1] * yy + r[a][2] * yz;
-            left[a][2] = r[a][0] * xz + r[a][1] * yz + r[a][2] * zz;
-        }
-        batch->stress[0][j] = left[0][0] * r[0][0] + left[0][1] * r[0][1] + left[0][2] * r[0][2];
-        batch->stress[1][j] = left[1][0] * r[1][0] + left[1][1] * r[1][1] + left[1][2] * r[1][2];
-        batch->stress[2][j] = left[2][0] * r[2][0] + left[2][1] * r[2][1] + left[2][2] * r[2][2];
-        batch->stress[3][j] = left[1][0] * r[2][0] + left[1][1] * r[2][1] + left[1][2] * r[2][2];
-        batch->stress[4][j] = left[0][0] * r[2][0] + left[0][1] * r[2][1] + left[0][2] * r[2][2];
-        batch->stress[5][j] = left[0][0] * r[1][0] + left[0][1] * r[1][1] + left[0][2] * r[1][2];
-    }
+    for (int j = 0; j < count; j++)
+        rotate_point(batch, j);
 }

@@ -2,6 +2,7 @@
 /* Stress update of a portion of particles: volume, rotation, law, energy (spec 6.2 to 6.7). */
 #include "base/tensor.h"
 #include "base/threads.h"
+#include "material/eos.h"
 #include "mpm/chunk.h"
 
 #include <math.h>
@@ -52,6 +53,7 @@ static struct law_batch open_batch(const struct mpm *mpm, const struct chunk *ch
         .volume_before = w->volume_before,
         .mass = chunk_read(chunk, store->real[COLUMN_MASS][0], w->copy[COPY_MASS]),
         .work = w->work,
+        .terms = {w->terms[0], w->terms[1]},
     };
     for (int a = 0; a < 6; a++)
         batch.strain[a] = w->strain[a];
@@ -85,6 +87,8 @@ static struct law_batch part_of(const struct law_batch *whole, int32_t from, int
     part.volume_before += from;
     part.mass += from;
     part.work += from;
+    part.terms[0] += from;
+    part.terms[1] += from;
     for (int i = 0; i < CHANGED; i++)
         for (int a = 0; a < column_row(changed[i].column)->components && pointers_of(&part, i)[a]; a++)
             pointers_of(&part, i)[a] += from;
@@ -109,8 +113,10 @@ static void follow_stress(const struct law_batch *batch)
 static void advance(const struct mpm *mpm, const struct law_batch *batch)
 {
     const struct law *law = batch->material->law;
-    if (law->needs_eos)
+    if (law->needs_eos) {
         law_eos_work_before(batch);
+        batch->material->eos->pressure(batch);
+    }
     if (mpm->rotate && law->rotates)
         mpm->rotate(batch);
     if (!law->needs_eos)
@@ -149,22 +155,28 @@ static void change_volume(struct workspace *w, double *restrict volume, int32_t 
 
 /* Volume and deformation gradient by the velocity gradient times the step, G: F := (1 + G) F,
  * V := V det(1 + G) (spec 6.4). */
+THREADS_INLINE void change_point(struct workspace *w, const struct law_batch *batch, int32_t j)
+{
+    double g[3][3], h[3][3];
+    chunk_get_gradient(w, j, g);
+    for (int a = 0; a < 9; a++)
+        h[a / 3][a % 3] = batch->deformation[a][j];
+    for (int a = 0; a < 9; a++) {
+        int r = a / 3, c = a % 3;
+        batch->deformation[a][j] = h[r][c] + g[r][c] + g[r][0] * h[0][c] + g[r][1] * h[1][c] + g[r][2] * h[2][c];
+    }
+    for (int a = 0; a < 3; a++)
+        g[a][a] += 1;
+    w->volume_before[j] = batch->volume[j];
+    batch->volume[j] *= tensor_determinant(g);
+}
+
+THREADS_VECTORISED
 static void change_deformation(struct workspace *w, const struct law_batch *batch)
 {
-    for (int32_t j = 0; j < batch->count; j++) {
-        double g[3][3], h[3][3];
-        chunk_get_gradient(w, j, g);
-        for (int a = 0; a < 9; a++)
-            h[a / 3][a % 3] = batch->deformation[a][j];
-        for (int a = 0; a < 9; a++) {
-            int r = a / 3, c = a % 3;
-            batch->deformation[a][j] = h[r][c] + g[r][c] + g[r][0] * h[0][c] + g[r][1] * h[1][c] + g[r][2] * h[2][c];
-        }
-        for (int a = 0; a < 3; a++)
-            g[a][a] += 1;
-        w->volume_before[j] = batch->volume[j];
-        batch->volume[j] *= tensor_determinant(g);
-    }
+#pragma omp simd
+    for (int32_t j = 0; j < batch->count; j++)
+        change_point(w, batch, j);
 }
 
 /* Total Lagrangian neo-Hookean update (spec 9.2): the gradient is that of the initial shape, so
