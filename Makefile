@@ -25,7 +25,13 @@ $(if $(openmp),,$(warning $(CC) has no OpenMP here: mpm3d will use one thread))
 sources := $(wildcard src/*.c src/*/*.c)
 objects := $(sources:src/%.c=$(build)/%.o)
 library := $(filter-out $(build)/main.o,$(objects))
-tools   := $(build)/tecdiff $(build)/tecstat
+tools   := $(build)/tecdiff $(build)/tecstat $(build)/tecview
+
+# Parts of the tools, which share nothing with the program but src/base.
+tool_parts      := $(patsubst tools/%.c,$(build)/tools/%.o,$(wildcard tools/*.c))
+tecplot_objects := $(filter $(build)/tools/tecplot_% $(build)/tools/words.o,$(tool_parts))
+draw_objects    := $(filter $(build)/tools/draw_%,$(tool_parts)) $(build)/base/memory.o $(build)/base/status.o
+view_objects    := $(filter-out $(build)/tools/tecview.o,$(filter $(build)/tools/tecview_%,$(tool_parts)))
 
 # The program at the top is that of the last plain build.
 all: $(build)/mpm3d $(tools) $(if $(filter 1,$(SAN)),,mpm3d)
@@ -42,10 +48,16 @@ $(build)/%.o: src/%.c Makefile
 	@echo "  CC  $@"
 	@$(CC) $(CPPFLAGS) $(flags) $(CFLAGS) $(san) $(openmp) -c $< -o $@
 
-$(build)/tec%: tools/tec%.c tools/tecplot_read.c tools/tecplot_read.h
+$(build)/tools/%.o: tools/%.c Makefile
 	@mkdir -p $(@D)
 	@echo "  CC  $@"
-	@$(CC) $(CPPFLAGS) $(flags) $(CFLAGS) $(san) $< tools/tecplot_read.c -lm -o $@
+	@$(CC) $(CPPFLAGS) $(flags) $(CFLAGS) $(san) -c $< -o $@
+
+$(build)/tecview: $(view_objects) $(draw_objects)
+
+$(build)/tec%: $(build)/tools/tec%.o $(tecplot_objects)
+	@echo "  CC  $@"
+	@$(CC) $(CFLAGS) $(san) $(LDFLAGS) $^ -lm -o $@
 
 unit_tests := $(patsubst tests/unit/%.c,$(build)/tests/%,$(wildcard tests/unit/test_*.c))
 
@@ -53,6 +65,12 @@ $(build)/tests/%: tests/unit/%.c tests/unit/check.h $(library)
 	@mkdir -p $(@D)
 	@echo "  CC  $@"
 	@$(CC) $(CPPFLAGS) $(filter-out -MMD -MP,$(flags)) $(CFLAGS) $(san) $(openmp) $< $(library) -lm -o $@
+
+$(build)/tests/test_draw: tests/unit/test_draw.c tests/unit/check.h tests/unit/read_png.h \
+    $(draw_objects) $(build)/tools/tecview_chart.o
+	@mkdir -p $(@D)
+	@echo "  CC  $@"
+	@$(CC) $(CPPFLAGS) $(filter-out -MMD -MP,$(flags)) $(CFLAGS) $(san) $(openmp) $< $(filter %.o,$^) -lm -o $@
 
 # Builds and runs the tensile test of the thesis, and prints its result beside the theory.
 run: all
@@ -91,18 +109,18 @@ check:
 
 install: all
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/mpm3d
-	install -m 755 $(build)/mpm3d $(build)/tecdiff $(build)/tecstat $(DESTDIR)$(PREFIX)/bin
+	install -m 755 $(build)/mpm3d $(tools) $(DESTDIR)$(PREFIX)/bin
 	cp -r decks $(DESTDIR)$(PREFIX)/share/mpm3d
 
 uninstall:
-	rm -f $(addprefix $(DESTDIR)$(PREFIX)/bin/,mpm3d tecdiff tecstat)
+	rm -f $(addprefix $(DESTDIR)$(PREFIX)/bin/,mpm3d $(notdir $(tools)))
 	rm -rf $(DESTDIR)$(PREFIX)/share/mpm3d
 
 clean:
 	rm -rf build mpm3d
 
 help:
-	@echo "make          builds mpm3d, tecdiff and tecstat"
+	@echo "make          builds mpm3d and the tools tecdiff (compares), tecstat (numbers), tecview (pictures)"
 	@echo "make run      builds, runs the tensile test, prints its result beside the theory"
 	@echo "make test     runs all tests; the last line counts"
 	@echo "make check    the tests under sanitizers, with gcc and clang, warnings as errors"
@@ -115,9 +133,10 @@ help:
 
 .PHONY: all run test check bench study manual fuzz install uninstall clean help
 .PHONY: always
+.SECONDARY: $(tool_parts)
 .DEFAULT_GOAL := all
 
--include $(objects:.o=.d)
+-include $(objects:.o=.d) $(tool_parts:.o=.d)
 
 # --- fuzzing: `make fuzz FUZZ_TIME=900` searches, `fuzz_replay` gives the seeds to any build ---
 

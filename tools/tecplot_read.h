@@ -29,6 +29,8 @@ struct tecplot_file {
     char **variable_names; /* without leading and trailing blanks */
     size_t zone_count;     /* at least 1 after a successful read */
     struct tecplot_zone *zones;
+    size_t label_count; /* the words of the variable whose values are words */
+    char **labels;      /* its values are numbers of these, from 0 */
 };
 
 struct tecplot_error {
@@ -38,6 +40,13 @@ struct tecplot_error {
 
 /* Reads the file at path ("-" is standard input). On failure *error says why and *file is empty. */
 bool tecplot_read(const char *path, struct tecplot_file *file, struct tecplot_error *error);
+
+/*
+ * As tecplot_read, for a table that may have words among its numbers. The values of the variable
+ * called label_name (NULL for none) become numbers of file->labels; other words become NaN.
+ */
+bool tecplot_read_table(const char *path, const char *label_name, struct tecplot_file *file,
+                        struct tecplot_error *error);
 
 /* Frees what a read left in *file; an empty *file is fine. */
 void tecplot_free(struct tecplot_file *file);

@@ -5,17 +5,13 @@
  * The command line becomes a request; the rows that --where leaves are listed; a row of the table
  * `commands` then prints the numbers. See the text of usage().
  */
-#define _POSIX_C_SOURCE 200809L
-
 #include <math.h>
 #include <stdbool.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
-#include "tecplot_read.h"
+#include "tecplot_find.h"
 
 enum exit_status { DONE = 0, NO_ROWS = 1, TROUBLE = 2 };
 
@@ -131,48 +127,7 @@ static void close_request(struct request *request)
     free(request->conditions);
 }
 
-/* A whole number from 1, as in --zone 2 and row 17. */
-static bool read_ordinal(const char *text, size_t *ordinal)
-{
-    double number;
-    const char *problem = tecplot_number(text, strlen(text), &number);
-    if (problem != NULL || !(number >= 1.0 && number <= 1e15 && floor(number) == number) ||
-        number >= (double)SIZE_MAX)
-        return false;
-    *ordinal = (size_t)number;
-    return true;
-}
-
 /* ---- variables ---- */
-
-static bool complain_variable(const struct tecplot_file *file, const char *name)
-{
-    fprintf(stderr, "tecstat: error: no variable '%s'; the file has:", name);
-    for (size_t i = 0; i < file->variable_count; ++i)
-        fprintf(stderr, " %s", file->variable_names[i]);
-    fputc('\n', stderr);
-    return false;
-}
-
-/* The column of that name: spelt exactly so, else the only one that differs in case alone. */
-static bool find_variable(const struct tecplot_file *file, const char *name, size_t *column)
-{
-    size_t exact = 0;
-    size_t similar = 0;
-    for (size_t i = 0; i < file->variable_count; ++i) {
-        const char *candidate = file->variable_names[i];
-        const bool same = strcmp(candidate, name) == 0;
-        if (same || (exact == 0 && strcasecmp(candidate, name) == 0))
-            *column = i;
-        exact += same;
-        similar += strcasecmp(candidate, name) == 0;
-    }
-    if (similar == 0)
-        return complain_variable(file, name);
-    if (exact > 1 || (exact == 0 && similar > 1))
-        return complain("more than one variable is called", name);
-    return true;
-}
 
 static double value_at(const struct selection *selection, size_t index, size_t column)
 {
@@ -194,29 +149,12 @@ static double *values_of(const struct selection *selection, size_t column)
 
 /* ---- selection ---- */
 
-static bool find_zone(const struct tecplot_file *file, const char *word,
-                      const struct tecplot_zone **zone)
-{
-    size_t number = file->zone_count;
-    if (strcmp(word, "first") == 0)
-        number = 1;
-    else if (strcmp(word, "last") != 0 && !read_ordinal(word, &number))
-        return complain("--zone must be last, first or a number from 1, not", word);
-    if (number > file->zone_count) {
-        fprintf(stderr, "tecstat: error: no zone %zu, the file has %zu\n", number,
-                file->zone_count);
-        return false;
-    }
-    *zone = &file->zones[number - 1];
-    return true;
-}
-
 /* Drops the rows that do not meet the condition. A NaN meets none. */
 static bool restrict_rows(struct selection *selection, const struct condition *condition)
 {
     size_t column = 0;
     size_t kept = 0;
-    if (!find_variable(selection->file, condition->variable, &column))
+    if (!tecplot_find_column("tecstat", selection->file, condition->variable, &column))
         return false;
     for (size_t i = 0; i < selection->row_count; ++i) {
         const double value = value_at(selection, i, column);
@@ -229,7 +167,7 @@ static bool restrict_rows(struct selection *selection, const struct condition *c
 
 static bool select_rows(const struct request *request, struct selection *selection)
 {
-    if (!find_zone(selection->file, request->zone, &selection->zone))
+    if (!tecplot_find_zone("tecstat", selection->file, request->zone, &selection->zone))
         return false;
     const size_t count = selection->zone->row_count;
     selection->rows = calloc(count > 0 ? count : 1, sizeof *selection->rows);
@@ -433,7 +371,7 @@ static bool read_row_command(const struct request *request, struct command *comm
 {
     if (request->word_count < 3)
         return complain("a row number and a variable are needed after", "row");
-    if (!read_ordinal(request->words[1], &command->row))
+    if (!tecplot_find_ordinal(request->words[1], &command->row))
         return complain("row N VARIABLE...: N must be a number from 1, not", request->words[1]);
     command->names += 1;
     command->name_count -= 1;
@@ -463,7 +401,7 @@ static bool find_columns(const struct tecplot_file *file, struct command *comman
     if (command->columns == NULL)
         return complain_memory();
     for (size_t i = 0; i < command->name_count; ++i)
-        if (!find_variable(file, command->names[i], &command->columns[i]))
+        if (!tecplot_find_column("tecstat", file, command->names[i], &command->columns[i]))
             return false;
     if (command->name_count == 0)
         command->name_count = 1; /* count of the first column, the same in all */

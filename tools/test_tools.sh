@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# test_tools.sh: tests of tecdiff and tecstat as a user runs them.
+# test_tools.sh: tests of tecdiff, tecstat and tecview as a user runs them.
 #
 # usage: test_tools.sh FOLDER_WITH_THE_TOOLS
 #
@@ -20,7 +20,7 @@ if [ $# -ne 1 ]; then
     exit 2
 fi
 tools=$(cd "$1" 2>/dev/null && pwd)
-for tool in tecdiff tecstat; do
+for tool in tecdiff tecstat tecview; do
     if [ ! -x "$tools/$tool" ]; then
         echo "test_tools.sh: no program $1/$tool" >&2
         exit 2
@@ -264,6 +264,146 @@ done
 if [ -z "$strange" ]; then pass every_beginning; else
     reject every_beginning "strange exit status for the first$strange bytes"
 fi
+
+# ---- tecview: pictures of points ----
+
+# point NAME FILE X Y EXPECTED: the size of a PNG file and the colour of a point
+point() {
+    found=$("$tools/tests/test_draw" "$2" "$3" "$4" 2>&1)
+    if [ "$found" = "$5" ]; then pass "$1"; else
+        reject "$1" "point $3 $4 is '$found' instead of '$5'"
+    fi
+}
+
+printf 'VARIABLES = X Y Z v\nZONE I=1\n1 2 3 5\n' >single.dat
+expect view_single 0 "" "" tecview points single.dat --of v --range 0 20 --from top --out single.png
+printf 'VARIABLES = X Y Z v\nZONE I=2\n0 0 0 nan\n1 0 0 2\n' >nan.dat
+expect view_nan 0 "" "" tecview points nan.dat --of V --from front --out nan.png
+expect view_size 0 "" "" tecview points nan.dat --of v --section y=0 --both --size 500x400 \
+    --out small.png
+if [ -x "$tools/tests/test_draw" ]; then
+    # the bar of colours reaches from row 164 (20) to 664 (0): 5 is at 539
+    bar=$("$tools/tests/test_draw" single.png 1134 538)
+    point view_value_has_the_bar_s_colour single.png 560 370 "$bar"
+    point view_margin_is_white single.png 5 5 "1200x800 ffffff"
+    case $bar in *ffffff) reject view_bar "the bar is not at 1134 538" ;; *) pass view_bar ;; esac
+    # two cubes side by side in the middle of the picture, the left one without a value
+    point view_nan_is_grey nan.png 400 370 "1200x800 a5a5a5"
+    point view_small small.png 499 399 "500x400 ffffff"
+else
+    echo "no tests/test_draw beside the tools: points of pictures are not looked at"
+fi
+if command -v python3 >/dev/null && python3 -c 'import zlib' 2>/dev/null; then
+    if python3 - single.png <<'END'
+import struct, sys, zlib
+data, place, packed, names = open(sys.argv[1], "rb").read(), 8, b"", []
+while place < len(data):
+    (length,), name = struct.unpack(">I", data[place:place + 4]), data[place + 4:place + 8]
+    body = data[place + 8:place + 8 + length]
+    assert zlib.crc32(name + body) == struct.unpack(">I", data[place + 8 + length:place + 12 + length])[0]
+    names.append(name)
+    packed += body if name == b"IDAT" else b""
+    place += 12 + length
+assert names == [b"IHDR", b"IDAT", b"IEND"] and len(zlib.decompress(packed)) == 800 * (1 + 3 * 1200)
+END
+    then pass view_png_by_zlib; else reject view_png_by_zlib "python3's zlib does not read it"; fi
+else
+    echo "no python3: the picture is not read by another program"
+fi
+expect view_deform 0 "" "" tecview points full.dat --of mat --deform disx,0,0 auto --zone 2 --out deform.png
+expect view_where 0 "" "" tecview points full.dat --of disx --where mat 2 2 --out where.png
+cmp -s deform.png where.png && reject view_options_matter "two pictures are the same" ||
+    pass view_options_matter
+expect view_missing_file 2 "" "missing.dat: error: cannot be opened" \
+    tecview points missing.dat --of v --out no.png
+expect view_unknown_variable 2 "" "no variable 'dixx'; the file has: X Y Z mat disx (nearest: 'disx')" \
+    tecview points full.dat --of dixx --out no.png
+expect view_no_coordinates 2 "" "no variable 'X'; the file has: t v" \
+    tecview points one.dat --of v --out no.png
+printf 'VARIABLES = X Y Z v\nZONE I=0\n' >no_rows.dat
+expect view_empty_zone 2 "" "no point to draw: the zone has 0 rows" \
+    tecview points no_rows.dat --of v --out no.png
+expect view_where_nothing 2 "" "no point to draw: the zone has 4 rows" \
+    tecview points full.dat --of disx --where mat 7 8 --out no.png
+expect view_section_beside 2 "" "no point in the section x=9: the points reach from 0.5 to 1.5" \
+    tecview points single.dat --of v --section x=9 --out no.png
+expect view_bad_section 2 "" "--section must be like x=0" tecview points single.dat --of v --section q=1 --out no.png
+expect view_bad_direction 2 "" "--from must be iso, front" tecview points single.dat --of v --from 0,0,0 --out no.png
+expect view_bad_range 2 "" "--range: 3 must be less than 2" tecview points single.dat --of v --range 3 2 --out no.png
+expect view_bad_size 2 "" "--size must be like 1200x800" tecview points single.dat --of v --size 10x10 --out no.png
+expect view_bad_kind 2 "" "is a .png file, not 'no.svg'" tecview points single.dat --of v --out no.svg
+expect view_bad_folder 2 "" "missing/no.png: error: cannot be written" \
+    tecview points single.dat --of v --out missing/no.png
+expect view_foreign_option 2 "" "'points' has no option '--log'" tecview points single.dat --log x
+expect view_missing_operand 2 "" "--range needs LO HI" tecview points single.dat --range 1
+expect view_bad_command 2 "" "must be points or curve, not 'draw'" tecview draw single.dat
+if [ -e no.png ]; then reject view_no_picture "a picture after a message"; else pass view_no_picture; fi
+expect view_help 0 "*" "" tecview --help
+contains view_help_example "tecview points"
+
+# ---- tecview: charts ----
+
+# places NAME FILE EXPECTED: the points of the one curve, as parts of its frame from the lower left
+places() {
+    found=$(tr '\n' ' ' <"$2" | sed 's/<polyline/\n&/g' | awk '
+        function read(line, x, y,    n, i, pair, list) {
+            sub(/.*points="/, "", line); sub(/".*/, "", line)
+            n = split(line, list, " ")
+            for (i = 1; i <= n; i++) { split(list[i], pair, ","); x[i] = pair[1]; y[i] = pair[2] }
+            return n
+        }
+        /stroke-width="1.2"/ { read($0, fx, fy) }
+        /stroke-width="1.8"/ { n = read($0, x, y) }
+        END {
+            for (i = 1; i <= n; i++)
+                printf "%s%.2f,%.2f", (i > 1 ? " " : ""), (x[i] - fx[1]) / (fx[2] - fx[1]), (fy[3] - y[i]) / (fy[3] - fy[2])
+        }')
+    if [ "$found" = "$3" ]; then pass "$1"; else
+        reject "$1" "'$found' instead of '$3'"
+    fi
+}
+
+printf 't u\n0 0\n1 30\n4 60\n10 90\n' >line.dat
+expect curve_linear 0 "" "" tecview curve line.dat --x t --y u --xrange 0 10 --range 0 120 --out line.svg
+places curve_linear_scale line.svg "0.00,0.00 0.10,0.25 0.40,0.50 1.00,0.75"
+printf 't u\n1 1000\n10 100\n1000 1\n' >powers.dat
+expect curve_log 0 "" "" tecview curve powers.dat --y u --log xy --xrange 1 1e4 --range 0.1 1e4 --out powers.svg
+places curve_log_scale powers.svg "0.00,0.80 0.25,0.60 0.75,0.20"
+expect curve_log_x 0 "" "" tecview curve powers.dat --y u --log x --xrange 1 1e4 --range 0 1000 --out half.svg
+places curve_log_x_scale half.svg "0.00,1.00 0.25,0.10 0.75,0.00"
+printf 'scheme time error\napic 1 0.5\n"a & b" 2 0.1\napic 3 0.3\npic 4 nan\npic 5 -1\n' >study.dat
+expect curve_pareto 0 "" "tecview: warning: 1 point without a number left out, 1 point not above zero left out" \
+    tecview curve study.dat --x time --y error --group scheme --pareto --log xy --unit 's,' --title '<T> m^{2}' --out pareto.svg
+for text in '>a &amp; b<' '>apic<' '>Pareto front<' '>time (s)<' '&lt;T&gt; m' '>0.1<' '>1 point without a number'; do
+    if grep -F -e "$text" pareto.svg >/dev/null; then pass "curve_text_$text"; else
+        reject "curve_text_$text" "not in pareto.svg"
+    fi
+done
+expect curve_two_files 0 "" "" tecview curve line.dat powers.dat --y u --out two.svg
+if grep -F -e '>line.dat<' two.svg >/dev/null && grep -F -e '>powers.dat<' two.svg >/dev/null; then
+    pass curve_file_names
+else
+    reject curve_file_names "the legend lacks the files' names"
+fi
+expect curve_png 0 "" "" tecview curve line.dat --y u --points --out line.png
+if [ -x "$tools/tests/test_draw" ]; then point curve_png_margin line.png 3 3 "900x560 ffffff"; fi
+if command -v xmllint >/dev/null; then
+    for picture in line powers pareto two; do
+        if xmllint --noout $picture.svg 2>err; then pass "curve_xml_$picture"; else
+            reject "curve_xml_$picture" "$(head -n 1 err)"
+        fi
+    done
+else
+    echo "no xmllint: charts are not checked as XML"
+fi
+expect curve_unknown_variable 2 "" "no variable 'w'; the file has: t u" tecview curve line.dat --y u,w --out no.svg
+expect curve_unknown_group 2 "" "no variable 'sceme'; the file has: scheme time error (nearest: 'scheme')" \
+    tecview curve study.dat --x time --y error --group sceme --out no.svg
+expect curve_nothing 2 "" "no point to draw of 'scheme'" tecview curve study.dat --x time --y scheme --out no.svg
+expect curve_bad_log 2 "" "--log must be x, y or xy, not 'z'" tecview curve line.dat --y u --log z --out no.svg
+expect curve_bad_range 2 "" "a logarithmic scale begins above 0" tecview curve line.dat --y u --log y --range 0 1 --out no.svg
+expect curve_bad_kind 2 "" "--out must end in .png or .svg" tecview curve line.dat --y u --out no.pdf
+if [ -e no.svg ]; then reject curve_no_picture "a chart after a message"; else pass curve_no_picture; fi
 
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]
