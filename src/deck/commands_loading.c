@@ -72,6 +72,23 @@ static void load_face(struct reader *reader, const struct deck_word *word, const
                       text_show(&values[0].word, shown, sizeof shown));
 }
 
+static void load_box(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    struct scene *scene = reader->scene;
+    struct scene_load load = {.kind = LOAD_BOX, .place = word->place};
+    for (int i = 0; i < 6; i++)
+        load.box[i] = values[i].real;
+    for (int a = 0; a < 3; a++) {
+        load.value[a] = values[6 + a].real;
+        if (load.box[2 * a + 1] < load.box[2 * a])
+            diagnostics_error(reader->diagnostics, values[2 * a + 1].word.place, "%c1 of load box is below %c0", "xyz"[a], "xyz"[a]);
+    }
+    scene->loads = memory_grow(scene->loads, &scene->loads_capacity, scene->n_loads + 1, sizeof load, "loads");
+    scene->loads[scene->n_loads++] = load;
+}
+
+#define EDGE(name) {name, "length", ARGUMENT_REAL, LIMIT_NONE}
+
 const struct keyword load_keywords[] = {
     {.name = "part", .arguments = (const struct argument[]){ID("particle"), VECTOR("fx", "fy", "fz", "force")},
      .apply = load_particle, .doc = "force on a particle"},
@@ -81,6 +98,10 @@ const struct keyword load_keywords[] = {
      .apply = load_gravity, .doc = "acceleration of a body"},
     {.name = "node", .arguments = (const struct argument[]){ID("particle"), VECTOR("fx", "fy", "fz", "force/length^3")},
      .apply = load_density, .doc = "force per volume on a particle, times its initial volume"},
+    {.name = "box",
+     .arguments = (const struct argument[]){EDGE("x0"), EDGE("x1"), EDGE("y0"), EDGE("y1"), EDGE("z0"), EDGE("z1"),
+                                            VECTOR("fx", "fy", "fz", "force/length^3")},
+     .apply = load_box, .doc = "force per volume on all particles that start in a box, its limits included, times their initial volume"},
     {.name = "face",
      .arguments = (const struct argument[]){{"face", NULL, ARGUMENT_WORD, LIMIT_NONE}, ID("body"),
                                             VECTOR("tx", "ty", "tz", "force/length^2")},

@@ -215,7 +215,7 @@ static void echo_bodies(const struct scene *scene, FILE *stream, bool whole)
 static void echo_loads(const struct scene *scene, FILE *stream, bool whole)
 {
     static const char *const kinds[] = {[LOAD_PARTICLE] = "part", [LOAD_BODY] = "body", [LOAD_GRAVITY] = "grav",
-                                        [LOAD_DENSITY] = "node", [LOAD_FACE] = "face"};
+                                        [LOAD_DENSITY] = "node", [LOAD_FACE] = "face", [LOAD_BOX] = "box"};
     if (scene->n_loads == 0)
         return;
     fprintf(stream, "load\n");
@@ -228,7 +228,10 @@ static void echo_loads(const struct scene *scene, FILE *stream, bool whole)
         fprintf(stream, "  %s", kinds[load->kind]);
         if (load->kind == LOAD_FACE)
             fprintf(stream, " %s", face_names[2 * load->axis + (load->side > 0)]);
-        fprintf(stream, " %ld", load->target + 1);
+        if (load->kind == LOAD_BOX)
+            print_numbers(stream, load->box, 6);
+        else
+            fprintf(stream, " %ld", load->target + 1);
         print_numbers(stream, load->value, 3);
         fprintf(stream, "\n");
     }

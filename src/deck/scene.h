@@ -39,13 +39,14 @@ struct scene_body {
     struct deck_place place, component_place;
 };
 
-enum scene_load_kind { LOAD_PARTICLE, LOAD_BODY, LOAD_GRAVITY, LOAD_DENSITY, LOAD_FACE };
+enum scene_load_kind { LOAD_PARTICLE, LOAD_BODY, LOAD_GRAVITY, LOAD_DENSITY, LOAD_FACE, LOAD_BOX };
 
 struct scene_load {
     enum scene_load_kind kind;
     long target;     /* particle or body */
     int axis, side;  /* LOAD_FACE: 0 1 2, -1 or +1 */
     double value[3]; /* force, acceleration, force per volume, or traction */
+    double box[6];   /* LOAD_BOX: x0 x1 y0 y1 z0 z1 */
     struct deck_place place;
 };
 

@@ -162,6 +162,17 @@ static void apply_velocities(struct mpm *mpm)
     }
 }
 
+/* Limits count in, give or take the round-off of a lattice. */
+static bool is_in_box(const struct store *store, long id, const double box[6])
+{
+    for (int a = 0; a < 3; a++) {
+        const double x = store->real[COLUMN_POSITION][a][id], tolerance = 1e-9 * fmax(fabs(box[2 * a]), fabs(box[2 * a + 1]));
+        if (x < box[2 * a] - tolerance || x > box[2 * a + 1] + tolerance)
+            return false;
+    }
+    return true;
+}
+
 static void apply_loads(struct mpm *mpm)
 {
     const struct scene *scene = mpm->scene;
@@ -177,10 +188,11 @@ static void apply_loads(struct mpm *mpm)
             continue;
         }
         const struct scene_body *body = load->kind == LOAD_BODY ? &scene->bodies[load->target] : NULL;
-        long first = body ? body->first : load->target, count = body ? body->count : 1;
+        const bool is_box = load->kind == LOAD_BOX;
+        long first = is_box ? 0 : body ? body->first : load->target, count = is_box ? scene->n_particles : body ? body->count : 1;
         for (long id = first; id < first + count; id++) {
-            double scale = load->kind == LOAD_DENSITY ? mpm->store->real[COLUMN_VOLUME][0][id] : 1;
-            for (int a = 0; a < 3; a++)
+            double scale = is_box || load->kind == LOAD_DENSITY ? mpm->store->real[COLUMN_VOLUME][0][id] : 1;
+            for (int a = 0; a < 3 && (!is_box || is_in_box(mpm->store, id, load->box)); a++)
                 mpm->store->real[COLUMN_LOAD][a][id] = scale * load->value[a];
         }
     }
