@@ -144,8 +144,8 @@ static enum status open_output(struct run *run)
     return STATUS_FINISHED;
 }
 
-/* Marks the particles that the animation file shows: those with a cell (all of them at the
- * start), created inside the pt2d box of their body. */
+/* Marks the particles that the animation file shows: those that had a cell in this step (all of
+ * them at the start), created inside the pt2d box of their body. */
 static void mark_shown(struct run *run)
 {
     const struct store *store = run->mpm->store;
@@ -160,7 +160,7 @@ static void mark_shown(struct run *run)
             run->is_shown[store->integer[COLUMN_ID][p]] = is_in;
         }
     const struct cell_list *cells = run->mpm->cells;
-    for (int32_t k = cells->in_cells; k < cells->count && run->dumps > 0; k++)
+    for (int32_t k = cells->count - run->lost_before_step; k < cells->count; k++)
         run->is_shown[store->integer[COLUMN_ID][cells->order[k]]] = 0;
 }
 
@@ -269,6 +269,7 @@ enum status run_step(struct run *run)
 {
     run->mpm->smooths = store_has(run->mpm->store, COLUMN_SMOOTHED_PRESSURE)
                      && run->mpm->time + run->mpm->time_step >= (double)run->next_output;
+    run->lost_before_step = run->mpm->cells->count - run->mpm->cells->in_cells;
     mpm_step(run->mpm);
     struct instability instability = mpm_check(run->mpm);
     if (instability.is_stopped) {

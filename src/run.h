@@ -34,6 +34,7 @@ struct run {
     struct table animation;
     struct table lost; /* particles that left the grid, on request */
     int32_t known_lost;
+    int32_t lost_before_step;
     struct history history;
     struct vtk_series vtk;
     struct progress progress;

@@ -225,6 +225,19 @@ static void check_particle(struct reader *reader, long particle, struct deck_pla
                           reader->scene->n_particles);
 }
 
+/* Only contact looks at components (spec 3.3). */
+static void unknown_component(struct reader *reader, const struct scene_body *body)
+{
+    const long last = reader->scene->components;
+    if (reader->scene->contact != CONTACT_NONE)
+        diagnostics_error(reader->diagnostics, body->component_place, "component %d does not exist; expected 1 to %ld",
+                          body->component + 1, last);
+    else
+        diagnostics_warning(reader->diagnostics, body->component_place,
+                            "component %d is above nbco, which is %ld; without 'cont' it has no meaning",
+                            body->component + 1, last);
+}
+
 /* Particle targets were checked against nbmp; the deck may have created fewer. Components could
  * not be checked, as nbco may come last. */
 void reader_finish_targets(struct reader *reader)
@@ -232,9 +245,7 @@ void reader_finish_targets(struct reader *reader)
     const struct scene *scene = reader->scene;
     for (size_t b = 0; b < scene->n_bodies; b++)
         if (scene->bodies[b].component >= scene->components)
-            diagnostics_error(reader->diagnostics, scene->bodies[b].component_place,
-                              "component %d does not exist; expected 1 to %ld", scene->bodies[b].component + 1,
-                              scene->components);
+            unknown_component(reader, &scene->bodies[b]);
     if (reader->has_bad_part || scene->n_particles == 0)
         return;
     for (size_t i = 0; i < scene->n_loads; i++)

@@ -48,7 +48,7 @@ static void read_result(struct reader *reader, const struct deck_word *word, con
     (void)word;
     struct scene *scene = reader->scene;
     const struct result *row = find_result(reader, &values[0].word);
-    if (!row || strcmp(row->name, "mat") == 0) /* mat is always the first column */
+    if (!row)
         return;
     scene->results = memory_grow(scene->results, &scene->results_capacity, scene->n_results + 1,
                                  sizeof *scene->results, "results");

@@ -364,6 +364,17 @@ void grid_straining_velocity(struct grid *grid, int first, int count)
     }
 }
 
+/* Whether place n of block b is a node of the grid: wide supports reach beyond it. */
+static bool is_node(const struct grid *grid, int32_t b, int n)
+{
+    for (int a = 0; a < 3; a++) {
+        int32_t at = grid->cells->blocks[b].at[a] * BLOCK_EDGE + (n >> (2 * a) & 3);
+        if (at < 0 || at >= grid->nodes[a])
+            return false;
+    }
+    return true;
+}
+
 void grid_quotient(struct grid *grid, int first)
 {
     const int32_t blocks = grid->cells->n_blocks;
@@ -372,7 +383,7 @@ void grid_quotient(struct grid *grid, int first)
         grid_collect(grid, b, first, 2, 0);
         double *above = grid_field(grid, b, first), *below = grid_field(grid, b, first + 1);
         for (int n = 0; n < BLOCK_CELLS; n++)
-            above[n] = below[n] != 0 ? above[n] / below[n] : 0;
+            above[n] = below[n] != 0 && is_node(grid, b, n) ? above[n] / below[n] : 0;
     }
 }
 

@@ -117,7 +117,6 @@ struct particle_array {
     const char *result; /* its value is that of a result, or */
     double (*value)(const struct result_source *source, size_t p);
     double sign;
-    enum column column;
 };
 
 /* The particles of a file, in the order of their ids: places in memory. */
@@ -181,21 +180,21 @@ static const struct particle_array particle_arrays[] = {
     {.name = "seqv", .result = "seqv", .sign = 1},
     {.name = "epeff", .result = "epef", .sign = 1},
     {.name = "pressure", .result = "pres", .sign = 1},
-    {.name = "Smoothpressure", .value = smoothed_pressure, .sign = 1, .column = COLUMN_SMOOTHED_PRESSURE},
+    {.name = "Smoothpressure", .value = smoothed_pressure, .sign = 1},
     {.name = "MeanNormalStress", .result = "pres", .sign = -1},
-    {.name = "SmoothMeanNormalStress", .value = smoothed_pressure, .sign = -1, .column = COLUMN_SMOOTHED_PRESSURE},
+    {.name = "SmoothMeanNormalStress", .value = smoothed_pressure, .sign = -1},
     {.name = "vx", .result = "velx", .sign = 1},
     {.name = "vy", .result = "vely", .sign = 1},
     {.name = "vz", .result = "velz", .sign = 1},
-    {.name = "disx", .result = "disx", .sign = 1, .column = COLUMN_INITIAL_POSITION},
-    {.name = "disy", .result = "disy", .sign = 1, .column = COLUMN_INITIAL_POSITION},
-    {.name = "disz", .result = "disz", .sign = 1, .column = COLUMN_INITIAL_POSITION},
-    {.name = "fxpx", .value = load_x, .sign = 1, .column = COLUMN_LOAD},
-    {.name = "fxpy", .value = load_y, .sign = 1, .column = COLUMN_LOAD},
-    {.name = "fxpz", .value = load_z, .sign = 1, .column = COLUMN_LOAD},
+    {.name = "disx", .result = "disx", .sign = 1},
+    {.name = "disy", .result = "disy", .sign = 1},
+    {.name = "disz", .result = "disz", .sign = 1},
+    {.name = "fxpx", .value = load_x, .sign = 1},
+    {.name = "fxpy", .value = load_y, .sign = 1},
+    {.name = "fxpz", .value = load_z, .sign = 1},
     {.name = "vol", .result = "volu", .sign = 1},
-    {.name = "celsius_t", .result = "cels", .sign = 1, .column = COLUMN_TEMPERATURE},
-    {.name = "damage", .result = "damg", .sign = 1, .column = COLUMN_DAMAGE},
+    {.name = "celsius_t", .result = "cels", .sign = 1},
+    {.name = "damage", .result = "damg", .sign = 1},
     {.name = "stressx", .result = "stsx", .sign = 1},
     {.name = "stressy", .result = "stsy", .sign = 1},
     {.name = "stressz", .result = "stsz", .sign = 1},
@@ -307,27 +306,16 @@ static void write_tree(struct writer *writer, const struct data_array *point_dat
     fprintf(stream, "</VTKFile>\n");
 }
 
-/* Arrays whose column the scene does not have would be 0 everywhere: left out, but for those that
- * every file of the reference has. */
-static bool is_left_out(const struct particle_array *array, const struct store *store)
-{
-    return array->column == COLUMN_LOAD && !store_has(store, COLUMN_LOAD);
-}
-
 static bool write_particles(const struct scene *scene, const struct result_source *source, const char *name)
 {
     struct particle_context contexts[PARTICLE_ARRAYS];
     struct data_array arrays[PARTICLE_ARRAYS];
     struct shown shown = list_shown(source);
     const size_t count = shown.count;
-    int n = 0;
     for (int i = 0; i < PARTICLE_ARRAYS; i++) {
         const struct particle_array *array = &particle_arrays[i];
-        if (is_left_out(array, source->store))
-            continue;
-        contexts[n] = (struct particle_context){&shown, array, array->result ? result_find(array->result)->value : array->value};
-        arrays[n] = (struct data_array){"Float64", array->name, 1, count, particle_value, &contexts[n]};
-        n++;
+        contexts[i] = (struct particle_context){&shown, array, array->result ? result_find(array->result)->value : array->value};
+        arrays[i] = (struct data_array){"Float64", array->name, 1, count, particle_value, &contexts[i]};
     }
     const struct data_array points = {"Float64", "Points", 3, count, particle_position, &shown};
     const struct data_array cells[3] = {{"Int64", "connectivity", 1, count, own_index, NULL},
@@ -337,7 +325,7 @@ static bool write_particles(const struct scene *scene, const struct result_sourc
     bool is_binary = scene->vtk_format == VTK_BINARY || (scene->vtk_format == VTK_AUTO && count > LARGEST_TEXT);
     struct writer writer = {open_part(name, &part), is_binary, (int)scene->digits, 0};
     if (writer.stream)
-        write_tree(&writer, arrays, n, &points, cells);
+        write_tree(&writer, arrays, PARTICLE_ARRAYS, &points, cells);
     memory_free(shown.places);
     return close_part(writer.stream, name, part);
 }

@@ -155,6 +155,20 @@ expect "a point outside the grid" 0 "1 particles left the grid and are frozen (f
 check "it is not in later output" sh -c 'test "$("$1/tecstat" outside_anim.dat count)" = 1' - "$build"
 points "9 9 9" >nothing.mpm
 expect "no point in the grid" 0 "1 particles left the grid" "$mpm3d" nothing.mpm
+# a point that leaves in the step before a dump had a cell in it and is shown once more
+points "3.99 1.5 1.5" "1.5 1.5 1.5" | sed 's/^fixe.*/fixe 0 0 0 0 0 0 outt 0.1/; s/^body 1.*/body 1 0.25 0 0/' >leaving.mpm
+expect "a point that leaves" 0 "1 particles left the grid" "$mpm3d" leaving.mpm
+check "it is shown at the end of its last step" sh -c 'test "$("$1/tecstat" leaving_anim.dat --zone 2 count)" = 2' - "$build"
+check "it is not shown later" sh -c 'test "$("$1/tecstat" leaving_anim.dat --zone 3 count)" = 1' - "$build"
+# as in the reference, outr adds its column to the first ones, also mat
+sed 's/^outr .*/outr mat outr velx outr mat/' one.mpm >columns.mpm
+expect "mat twice" 0 "no particle lost" "$mpm3d" columns.mpm
+check "each has its column" sh -c 'test "$(tail -n 1 columns_anim.dat | wc -w)" = 7' -
+# gimp and smoo near a face: what would go to nodes outside the grid is dropped (spec 7.2, 9.6)
+points "3.9 1.5 1.5" "3.9 1.5 1.5" |
+    sed 's/^1 elas.*/1 sjc 1 1 0.3 1 0 1 0 1\nseos 1 1 2 0 0 0 0 0 0 0/; s/^tecp/gimp para ascii smoo dtsc 1e-6 endt 0 tecp/; s/^body 1.*/body 1 0 0 0/' >smoothed.mpm
+expect "smoothed pressure at a face" 0 "no particle lost" "$mpm3d" smoothed.mpm
+check "weights inside the grid times pressure: 2 (0.855 + 0.1225)" awk '/<DataArray/ { wait = /"Smoothpressure"/ } wait && /^[0-9]/ { n++; if ($1 < 1.95499 || $1 > 1.95501) exit 1 } END { if (n != 2) exit 1 }' smoothed_anim_2.vtu
 points "1.0000000000001 1.5 1.5" "0.9999999999999 1.5 1.5" >tiny.mpm
 expect "nodes of nearly no mass" 0 "no particle lost" "$mpm3d" tiny.mpm
 exit $failures
