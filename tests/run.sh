@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Runs all tests with the programs in a build folder: sh tests/run.sh BUILD
-# Every test prints `ok NAME` or `FAIL NAME: why` lines; the last line here counts them. A test
-# that ends badly without a FAIL line counts as one failure.
+# Every test prints `ok NAME` or `FAIL NAME: why` lines, or `skip NAME: why` where something is missing
+# on this machine; the last line here counts them. A test that ends badly without a FAIL line counts
+# as one failure, and so does one without any of these lines.
 build=$(cd "$1" && pwd) || exit 2
 cd "$(dirname "$0")/.." || exit 2
 ASAN_OPTIONS=exitcode=99:${ASAN_OPTIONS:-}; export ASAN_OPTIONS
@@ -21,16 +22,18 @@ run() {
     status=$?
     failed=$(grep -c '^FAIL ' "$log")
     passed=$(grep -c '^ok ' "$log")
+    skipped=$(grep -c '^skip ' "$log")
     if [ "$status" -ne 0 ] && [ "$failed" -eq 0 ]; then
         echo "FAIL $name: exit status $status" >>"$log"
         tail -n 20 "$log"
         failed=1
     elif [ "$failed" -gt 0 ]; then
         grep -v '^ok ' "$log"
-    elif [ "$passed" -eq 0 ]; then
+    elif [ "$passed" -eq 0 ] && [ "$skipped" -eq 0 ]; then
         echo "FAIL $name: no check was run" | tee -a "$log"
         failed=1
     fi
+    [ "$failed" -gt 0 ] || grep '^skip ' "$log"
     printf '%-28s %4d passed  %d failed  %d s\n' "$name" "$passed" "$failed" $(($(date +%s) - start))
     cat "$log" >>"$all"
 }
@@ -48,5 +51,7 @@ if [ -x "$build/fuzz_replay" ]; then
 fi
 passed=$(grep -c '^ok ' "$all")
 failed=$(grep -c '^FAIL ' "$all")
+skipped=$(grep -c '^skip ' "$all")
+[ "$skipped" -eq 0 ] || echo "$skipped skipped"
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]
