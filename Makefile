@@ -81,6 +81,10 @@ run: all
 test: all $(unit_tests) $(build)/fuzz_replay
 	@sh tests/run.sh $(build)
 
+# All decks of decks/ and of the tests, also those that take minutes, with their times.
+decks: all
+	@sh tests/decks/run_decks.sh $(build) all
+
 # Speed, against the memory bandwidth of this machine.
 bench: $(build)/bench
 	$(build)/bench $(if $(QUICK),quick)
@@ -105,6 +109,7 @@ check:
 	@if command -v clang >/dev/null; then $(MAKE) WERROR=1 SAN=1 CFLAGS="-O1 -g" CC=clang test && \
 	    $(MAKE) WERROR=1 CC=clang test; else echo "no clang here: its half of the check is left out"; fi
 	$(MAKE) WERROR=1 CC=gcc test
+	$(MAKE) CC=gcc decks
 	sh tools/check_names.sh build/gcc
 
 install: all
@@ -123,7 +128,8 @@ help:
 	@echo "make          builds mpm3d and the tools tecdiff (compares), tecstat (numbers), tecview (pictures)"
 	@echo "make run      builds, runs the tensile test, prints its result beside the theory"
 	@echo "make test     runs all tests; the last line counts"
-	@echo "make check    the tests under sanitizers, with gcc and clang, warnings as errors"
+	@echo "make decks    runs all decks, also the long ones, and compares their numbers"
+	@echo "make check    the tests under sanitizers, with gcc and clang, warnings as errors; make decks"
 	@echo "make bench    speed: cost by phase, threads, size; against this machine's memory bandwidth"
 	@echo "make study    accuracy: convergence and conservation by scheme"
 	@echo "make manual   writes MANUAL.md from the program's tables"
@@ -131,7 +137,7 @@ help:
 	@echo "make install  PREFIX=$(PREFIX), DESTDIR; make uninstall; make clean"
 	@echo "options: CC, CFLAGS, NATIVE=1 (this machine's instructions), SAN=1 (sanitizers)"
 
-.PHONY: all run test check bench study manual fuzz install uninstall clean help
+.PHONY: all run test decks check bench study manual fuzz install uninstall clean help
 .PHONY: always
 .SECONDARY: $(tool_parts)
 .DEFAULT_GOAL := all
