@@ -480,7 +480,7 @@ int32_t cell_list_block_of(const struct cell_list *list, int32_t p, const struct
     int32_t cell[3], at[3];
     for (int a = 0; a < 3; a++)
         position[a] = store->real[COLUMN_POSITION][a][p];
-    if (list->cell[p] == CELL_NONE || !cell_locate(&list->frame, position, cell))
+    if (p >= list->count || list->cell[p] == CELL_NONE || !cell_locate(&list->frame, position, cell))
         return -1;
     for (int a = 0; a < 3; a++)
         at[a] = cell[a] / BLOCK_EDGE;
