@@ -221,7 +221,7 @@ enum status run_open(struct run *run, const struct run_options *options)
 /* Whether the last step ended the run for another reason than the end time; its state is written. */
 static bool ends_by_schedule(const struct run *run)
 {
-    return run->scene->building.settling >= 0 && building_has_settled(run->mpm);
+    return building_has_settled(run->mpm, run->mpm->step);
 }
 
 bool run_goes_on(const struct run *run)
@@ -268,7 +268,8 @@ static enum status write_step(struct run *run)
 enum status run_step(struct run *run)
 {
     run->mpm->smooths = store_has(run->mpm->store, COLUMN_SMOOTHED_PRESSURE)
-                     && run->mpm->time + run->mpm->time_step >= (double)run->next_output;
+                     && (run->mpm->time + run->mpm->time_step >= (double)run->next_output
+                         || building_has_settled(run->mpm, run->mpm->step + 1));
     run->lost_before_step = run->mpm->cells->count - run->mpm->cells->in_cells;
     mpm_step(run->mpm);
     struct instability instability = mpm_check(run->mpm);

@@ -90,7 +90,7 @@ static void print_lost(const struct mpm *mpm, FILE *stream)
 static double momentum_change(const struct mpm *mpm)
 {
     double change = 0, scale = 0, mass = 0;
-    for (size_t p = 0; p < mpm->store->count; p++)
+    for (int32_t p = 0; p < mpm->cells->count; p++)
         mass += mpm->store->real[COLUMN_MASS][0][p];
     for (int a = 0; a < 3; a++) {
         double difference = mpm->sums.momentum[a] - mpm->start_momentum[a];

@@ -6,6 +6,8 @@
 #include "process/schedule.h"
 #include "process/transformation.h"
 
+#include <math.h>
+
 static bool has_building(const struct mpm *mpm)
 {
     return mpm->scene->building.has_ghosts || store_has(mpm->store, COLUMN_LAYER);
@@ -73,11 +75,17 @@ static void admit(struct mpm *mpm, int32_t n)
     const size_t first = (size_t)mpm->cells->count;
     cell_list_admit(mpm->cells, store, n);
     for (size_t p = first; p < first + (size_t)n; p++) {
+        const double mass = store->real[COLUMN_MASS][0][p];
         double square = 0;
-        for (int a = 0; a < 3; a++)
-            square += store->real[COLUMN_VELOCITY][a][p] * store->real[COLUMN_VELOCITY][a][p];
-        mpm->sums.kinetic += 0.5 * store->real[COLUMN_MASS][0][p] * square;
-        mpm->external_work += 0.5 * store->real[COLUMN_MASS][0][p] * square;
+        for (int a = 0; a < 3; a++) {
+            const double velocity = store->real[COLUMN_VELOCITY][a][p];
+            square += velocity * velocity;
+            mpm->sums.momentum[a] += mass * velocity;
+            mpm->start_momentum[a] += mass * velocity;
+            mpm->sums.fastest = fmax(mpm->sums.fastest, fabs(velocity));
+        }
+        mpm->sums.kinetic += 0.5 * mass * square;
+        mpm->external_work += 0.5 * mass * square;
         take_energy(mpm, store->real[COLUMN_ENERGY][0][p]);
         note_material(mpm, p);
     }
@@ -108,8 +116,8 @@ bool building_step(struct mpm *mpm, long step)
     return n > 0;
 }
 
-bool building_has_settled(const struct mpm *mpm)
+bool building_has_settled(const struct mpm *mpm, long step)
 {
     const long settling = mpm->scene->building.settling;
-    return settling >= 0 && mpm->step >= schedule_last_step(mpm->schedule) + settling;
+    return settling >= 0 && step >= schedule_last_step(mpm->schedule) + settling;
 }

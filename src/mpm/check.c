@@ -19,20 +19,27 @@ static bool is_finite_particle(const struct store *store, size_t p)
     return isfinite(sum);
 }
 
-static long first_not_finite(const struct store *store)
+static bool is_closed(const struct mpm *mpm, size_t id)
 {
+    return mpm->store->index_of_id[id] >= mpm->cells->count;
+}
+
+static long first_not_finite(const struct mpm *mpm)
+{
+    const struct store *store = mpm->store;
     for (size_t id = 0; id < store->count; id++)
-        if (!is_finite_particle(store, (size_t)store->index_of_id[id]))
+        if (!is_closed(mpm, id) && !is_finite_particle(store, (size_t)store->index_of_id[id]))
             return (long)id;
     return -1;
 }
 
-static long fastest_particle(const struct store *store)
+static long fastest_particle(const struct mpm *mpm)
 {
+    const struct store *store = mpm->store;
     double fastest = -1;
     long found = -1;
     for (size_t id = 0; id < store->count; id++)
-        for (int a = 0; a < 3; a++) {
+        for (int a = 0; a < 3 && !is_closed(mpm, id); a++) {
             double speed = fabs(store->real[COLUMN_VELOCITY][a][store->index_of_id[id]]);
             if (speed > fastest) {
                 fastest = speed;
@@ -42,13 +49,18 @@ static long fastest_particle(const struct store *store)
     return found;
 }
 
-static long least_volume_particle(const struct store *store)
+static long least_volume_particle(const struct mpm *mpm)
 {
-    long found = 0;
-    const double *volume = store->real[COLUMN_VOLUME][0];
-    for (size_t id = 0; id < store->count; id++)
-        if (volume[store->index_of_id[id]] < volume[store->index_of_id[found]])
-            found = (long)id;
+    const struct store *store = mpm->store;
+    double least = INFINITY;
+    long found = -1;
+    for (size_t id = 0; id < store->count; id++) {
+        double volume = store->real[COLUMN_VOLUME][0][store->index_of_id[id]];
+        if (is_closed(mpm, id) || !(volume < least))
+            continue;
+        least = volume;
+        found = (long)id;
+    }
     return found;
 }
 
@@ -64,18 +76,18 @@ struct instability mpm_check(const struct mpm *mpm)
     const struct sums *sums = &mpm->sums;
     const char *smaller = "try a smaller dtsc";
     if (!are_finite(sums)) {
-        result.particle = first_not_finite(mpm->store);
+        result.particle = first_not_finite(mpm);
         snprintf(result.cause, sizeof result.cause, "a value is not finite");
     } else if (sums->least_volume <= 0) {
-        result.particle = least_volume_particle(mpm->store);
+        result.particle = least_volume_particle(mpm);
         snprintf(result.cause, sizeof result.cause, "a particle's volume is %.3g", sums->least_volume);
         smaller = "try a smaller dtsc; a body crushed beyond its law's reach also does this";
     } else if (sums->fastest * mpm->time_step > mpm->scene->cell_size) {
-        result.particle = fastest_particle(mpm->store);
+        result.particle = fastest_particle(mpm);
         snprintf(result.cause, sizeof result.cause, "a particle moves %.3g cells a step",
                  sums->fastest * mpm->time_step / mpm->scene->cell_size);
     } else if (mpm->time_step < LEAST_STEP_FRACTION * mpm->first_time_step) {
-        result.particle = fastest_particle(mpm->store);
+        result.particle = fastest_particle(mpm);
         snprintf(result.cause, sizeof result.cause,
                  "the time step fell to %.3g of the first one, as a particle has speed %.3g",
                  mpm->time_step / mpm->first_time_step, sums->fastest);

@@ -259,14 +259,14 @@ static void damp_block(struct grid *grid, int32_t b, double step)
         double *restrict acceleration = grid_field(grid, b, NODE_FORCE + a);
         for (int n = 0; n < BLOCK_CELLS; n++) {
             double before = velocity[n] - acceleration[n] * step, after = velocity[n] * left[n];
-            work[n] += after * (before + after);
+            work[n] += impulse * after * (before + after) + mass[n] * (after - before) * (after - before);
             acceleration[n] += (after - velocity[n]) / step;
             velocity[n] = after;
         }
     }
     for (int n = 0; n < BLOCK_CELLS; n++)
         energy += work[n];
-    grid->damped[b] = 0.5 * impulse * energy;
+    grid->damped[b] = 0.5 * energy;
 }
 
 double grid_damped_energy(const struct grid *grid)

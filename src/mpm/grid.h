@@ -74,7 +74,8 @@ void grid_close(struct grid *grid);
 /* Nodes that the deck holds, besides those of the boundary codes. */
 void grid_hold(struct grid *grid, const struct scene_hold *holds, size_t n_holds);
 
-/* Energy that nodal damping took in the last integration. */
+/* Energy that nodal damping took in the last integration, with the kinetic energy of the nodes' changes of
+ * velocity: that of the particles' changes has to be taken off, the difference is lost between them. */
 double grid_damped_energy(const struct grid *grid);
 
 /* Follows a change of the blocks of the cell list. */

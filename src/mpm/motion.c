@@ -64,6 +64,19 @@ void motion_blend(struct mpm *mpm, const struct chunk *chunk, double *const velo
     chunk->workspace->acceleration_step = share * step;
 }
 
+/* Kinetic energy of the particles' changes of velocity in this step. */
+static double change_energy(const struct mpm *mpm, const struct chunk *chunk, const double *mass)
+{
+    const double step = mpm->time_step * mpm->momentum_factor;
+    double energy = 0;
+    for (int32_t j = 0; j < chunk->count; j++)
+        for (int a = 0; a < 3; a++) {
+            const double change = chunk->workspace->gathered[a][j] * step;
+            energy += 0.5 * mass[j] * change * change;
+        }
+    return energy;
+}
+
 THREADS_VECTORISED
 void motion_accelerate(struct mpm *mpm, const struct chunk *chunk, double *const velocity[3], const double *mass)
 {
@@ -77,6 +90,8 @@ void motion_accelerate(struct mpm *mpm, const struct chunk *chunk, double *const
         chunk_write(chunk, mpm->store->real[COLUMN_VELOCITY][a], v);
     }
     sum_motion(&mpm->block_sums[chunk->block_index], chunk->count, velocity, mass);
+    if (mpm->grid->damping > 0)
+        mpm->block_sums[chunk->block_index].changed += change_energy(mpm, chunk, mass);
 }
 
 /* Cells of the chunk's new positions, counted from the block's corner, into workspace.cell. */

@@ -20,6 +20,7 @@ struct sums {
     double kinetic, internal;
     double momentum[3];
     double work;          /* of external forces in this step */
+    double changed;       /* kinetic energy of the changes of velocity in this step; only with nodal damping */
     double fastest;       /* largest velocity component */
     double least_volume;
     double moved;         /* particles that changed cell */
@@ -193,8 +194,8 @@ void building_close(struct mpm *mpm);
 bool building_step(struct mpm *mpm, long step);
 /* The next step at which something is due; 0 when the build is complete. */
 long building_next_step(const struct mpm *mpm);
-/* Whether `open settle` ends the run. */
-bool building_has_settled(const struct mpm *mpm);
+/* Whether `open settle` ends the run behind a step. */
+bool building_has_settled(const struct mpm *mpm, long step);
 
 /* Face tractions (load face). */
 void faces_open(struct mpm *mpm);

@@ -79,7 +79,6 @@ static void solve_on_grid(struct mpm *mpm)
         grid_divide(mpm->grid, step);
     }
     mpm->external_work += faces_work(mpm);
-    mpm->removed_energy += grid_damped_energy(mpm->grid);
 }
 
 /* Steps 6 and 7: particle velocities; for USF positions too; for MUSL the new momentum goes to
@@ -160,6 +159,7 @@ static void add_sums(struct sums *total, const struct sums *part)
     for (int a = 0; a < 3; a++)
         total->momentum[a] += part->momentum[a];
     total->work += part->work;
+    total->changed += part->changed;
     total->moved += part->moved;
     total->fastest = part->fastest > total->fastest ? part->fastest : total->fastest;
     total->least_volume = part->least_volume < total->least_volume ? part->least_volume : total->least_volume;
@@ -180,29 +180,32 @@ static void sum_particles(struct mpm *mpm, int32_t blocks)
         add_sums(&total, &mpm->block_sums[b]);
     mpm->sums = total;
     mpm->external_work += total.work;
+    if (mpm->grid->damping > 0)
+        mpm->removed_energy += grid_damped_energy(mpm->grid) - total.changed;
     mpm->cells->moved += total.moved;
 }
 
 /* Energy that is not accounted for. Velocities belong to the middle of steps: usl and musl have the
  * internal energy half a step after the kinetic one, usf half a step before it. Both are taken at
  * the time where the internal energy lies between two kinetic ones. */
-static void balance_energy(struct mpm *mpm, const struct sums *before, double work_before)
+static void balance_energy(struct mpm *mpm, const struct sums *before, double work_before, double removed_before)
 {
     double kinetic = 0.5 * (before->kinetic + mpm->sums.kinetic);
     double internal = mpm->scene->scheme == SCHEME_USF ? mpm->sums.internal : before->internal;
-    mpm->unbalanced = kinetic + internal + mpm->removed_energy - mpm->start_energy - work_before;
+    mpm->unbalanced = kinetic + internal + 0.5 * (removed_before + mpm->removed_energy) - mpm->start_energy - work_before;
 }
 
 double mpm_stable_step(const struct mpm *mpm, double fastest)
 {
     if (mpm->scene->fixed_step > 0)
         return mpm->scene->fixed_step;
-    double smallest = DBL_MAX;
+    double smallest = DBL_MAX, of_all = DBL_MAX;
     for (size_t i = 0; i < mpm->scene->n_materials; i++) {
         double step = mpm->scene->cell_size / (mpm->scene->materials[i].material.wave_speed + fastest);
         smallest = step < smallest && mpm->is_material_open[i] ? step : smallest;
+        of_all = fmin(step, of_all);
     }
-    return mpm->scene->step_scale * smallest;
+    return mpm->scene->step_scale * (smallest < DBL_MAX ? smallest : of_all); /* all where no particle is open yet */
 }
 
 /* Kinetic damping (spec 9.5): all velocities to zero when the kinetic energy did not grow. */
@@ -210,7 +213,7 @@ static void damp_kinetic(struct mpm *mpm)
 {
     if (mpm->sums.kinetic <= mpm->previous_kinetic) {
         for (int a = 0; a < 3; a++)
-            for (size_t p = 0; p < mpm->store->count; p++)
+            for (int32_t p = 0; p < mpm->cells->count; p++)
                 mpm->store->real[COLUMN_VELOCITY][a][p] = 0;
         mpm->removed_energy += mpm->sums.kinetic;
         mpm->sums.kinetic = 0;
@@ -224,7 +227,7 @@ void mpm_step(struct mpm *mpm)
         mpm->time_step = mpm_stable_step(mpm, mpm->sums.fastest);
     const int32_t blocks = mpm->cells->active, frozen_from = mpm->cells->in_cells;
     const struct sums before = mpm->sums;
-    const double work_before = mpm->external_work;
+    const double work_before = mpm->external_work, removed_before = mpm->removed_energy;
     mpm->step++;
     mpm->updates += mpm->cells->count;
     mpm->time += mpm->time_step;
@@ -240,7 +243,7 @@ void mpm_step(struct mpm *mpm)
     sum_particles(mpm, blocks);
     if (mpm->scene->lost != LOST_DROP)
         add_particles(mpm, frozen_from, mpm->cells->count, &mpm->sums);
-    balance_energy(mpm, &before, work_before);
+    balance_energy(mpm, &before, work_before, removed_before);
     discard_grid(mpm);
     timers_enter(mpm->timers, PHASE_SUMS);
     mpm->time_step = mpm_stable_step(mpm, mpm->sums.fastest);

@@ -59,7 +59,7 @@ static void find_layers(const struct scene *scene, struct place *places, size_t 
 double schedule_angle(const struct scene *scene, int32_t layer)
 {
     const struct scene_building *building = &scene->building;
-    return building->n_angles > 0 ? building->angles[(size_t)layer % building->n_angles] : 0;
+    return building->n_angles > 0 ? fmod(building->angles[(size_t)layer % building->n_angles], 360) : 0;
 }
 
 /* --- order inside a layer --- */
@@ -73,11 +73,10 @@ static void find_track(const struct scene *scene, const struct store *store, str
     const double x = store->real[COLUMN_POSITION][first][place->id], y = store->real[COLUMN_POSITION][second][place->id];
     const bool is_diagonal = fabs(fabs(sin(angle)) - fabs(cos(angle))) < 1e-9;
     const double width = is_diagonal ? spacing * sqrt(0.5) : spacing;
-    const double across = y * cos(angle) - x * sin(angle), sign = cos(angle) > 1e-9 ? 1 : -1;
-    place->track = floor(sign * across / width + SAME);
+    const double across = y * cos(angle) - x * sin(angle);
+    const bool is_upright = fabs(cos(angle)) < 1e-9, grows = is_upright ? sin(angle) < 0 : cos(angle) > 0;
+    place->track = floor((grows ? across : -across) / width + SAME);
     place->along = x * cos(angle) + y * sin(angle);
-    if (scene->building.is_serpentine && fmod(fabs(place->track), 2) == 1)
-        place->along = -place->along;
 }
 
 static int by_opening(const void *left, const void *right)
@@ -94,6 +93,21 @@ static int by_opening(const void *left, const void *right)
     return a->id < b->id ? -1 : a->id > b->id;
 }
 
+/* Turns every other line of a layer, the first one goes forward; the places are sorted. */
+static void turn_lines(struct place *places, size_t count)
+{
+    bool is_turned = false;
+    for (size_t i = 0; i < count; i++) {
+        if (i == 0 || places[i - 1].is_open || places[i - 1].height != places[i].height)
+            is_turned = false;
+        else if (places[i - 1].track != places[i].track)
+            is_turned = !is_turned;
+        if (is_turned)
+            places[i].along = -places[i].along;
+    }
+    qsort(places, count, sizeof *places, by_opening);
+}
+
 /* Sorts by state, layer where layers count, track, place along it, id. */
 static void sort_places(const struct scene *scene, const struct store *store, struct place *places, size_t count, double spacing)
 {
@@ -105,6 +119,8 @@ static void sort_places(const struct scene *scene, const struct store *store, st
             find_track(scene, store, &places[i], spacing);
     }
     qsort(places, count, sizeof *places, by_opening);
+    if (is_raster && scene->building.is_serpentine)
+        turn_lines(places, count);
 }
 
 /* --- openings --- */
