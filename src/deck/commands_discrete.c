@@ -304,7 +304,7 @@ const struct keyword discrete_keywords[] = {
      .details = "open point every n     one particle every n steps, in the order of `scan`\nopen group k every n   k particles\n"
                 "open layer every n     a layer\nopen all               all at the first step\n"
                 "open settle n          the run ends n steps after the last opening, whatever endt says\n"
-                "open until id          no particle opens after this one"},
+                "open until id          no particle opens after this one, nor the rest of its layer"},
     {.name = "buil", .long_name = "build", .apply = reader_build,
      .doc = "build direction x, y or z (default), and the thickness of layers; without it particles of one height are a layer",
      .details = "buil x|y|z [thickness]"},

@@ -15,6 +15,26 @@
 
 static const struct argument one_count[] = {COUNT("n"), {0}}, one_id[] = {COUNT("id"), {0}};
 
+/* Says what has to stand behind the last word of a command, and what stands there instead. */
+static void expect(struct reader *reader, const char *owner, const char *expected)
+{
+    struct deck_word word;
+    char shown[40];
+    if (reader_at_line_end(reader) || !text_peek(reader->text, &word))
+        diagnostics_error(reader->diagnostics, text_behind(&reader->last), "%s lacks its next word; expected %s", owner, expected);
+    else
+        diagnostics_error(reader->diagnostics, word.place, "expected %s behind %s, found '%s'", expected, owner,
+                          text_show(&word, shown, sizeof shown));
+    reader_skip_line(reader);
+}
+
+/* Whether a word stands behind the last one on its line that begins no command. */
+static bool has_more(struct reader *reader)
+{
+    struct deck_word word;
+    return !reader_at_line_end(reader) && text_peek(reader->text, &word) && !reader_is_keyword(&word);
+}
+
 /* --- closed particles --- */
 
 /* GPD id value, or GPD id1 id2 value: a third number stands on the same line. */
@@ -23,7 +43,7 @@ static void read_ghost(struct reader *reader, const struct deck_word *word, cons
     static const struct argument third[] = {FLAG("value"), {0}};
     struct scene_building *building = &reader->scene->building;
     struct value last[2] = {values[1]};
-    bool is_range = !reader_at_line_end(reader);
+    bool is_range = has_more(reader);
     (void)word;
     if (is_range && !reader_values(reader, third, "GPD", last))
         return;
@@ -57,10 +77,14 @@ void reader_ghosts(struct reader *reader, const struct deck_word *word, const st
         building->shows_ghosts = true;
         return;
     }
+    if (has_more(reader)) {
+        expect(reader, "Ghost", "'show', or lines 'GPD id value' and 'endG'");
+        return;
+    }
     building->has_ghosts = true;
     building->ghost_place = word->place;
     reader_needs(reader, word, "nbmp");
-    reader_block(reader, ghost_keywords, "endg", "Ghost");
+    reader_block(reader, ghost_keywords, "endG", "Ghost");
 }
 
 /* The number behind `every`. */
@@ -69,15 +93,25 @@ static bool read_every(struct reader *reader, const char *owner, long *number)
     static const char *const every[] = {"every", NULL};
     struct value value[2];
     if (reader_optional(reader, every) < 0) {
-        diagnostics_error(reader->diagnostics, text_behind(&reader->last), "%s lacks 'every n', the steps from one opening to the next",
-                          owner);
-        reader_skip_line(reader);
+        expect(reader, owner, "'every n', the steps from one opening to the next");
         return false;
     }
     if (!reader_values(reader, one_count, owner, value))
         return false;
     *number = value[0].integer;
     return true;
+}
+
+/* What may not stand behind `open all` and the like. */
+static void check_end_of_opening(struct reader *reader, const char *kind)
+{
+    static const char *const words[] = {"every", "settle", "until", NULL};
+    int found = reader_optional(reader, words);
+    if (found < 0)
+        return;
+    diagnostics_error(reader->diagnostics, reader->last.place, "'%s' does not belong to 'open %s'%s", words[found], kind,
+                      found == 0 ? "" : "; give it an 'open' of its own");
+    reader_skip_line(reader);
 }
 
 void reader_opening(struct reader *reader, const struct deck_word *word, const struct value *values)
@@ -87,11 +121,14 @@ void reader_opening(struct reader *reader, const struct deck_word *word, const s
     struct value value[2];
     int kind = reader_optional(reader, kinds);
     (void)values;
-    building->open_place = kind < 4 ? word->place : building->open_place;
+    if (kind >= 0 && kind < 4) {
+        if (building->opening != OPENING_NONE)
+            diagnostics_error(reader->diagnostics, word->place, "'open' gives a second schedule; expected one of 'open point', "
+                                                                "'open group', 'open layer' and 'open all'");
+        building->open_place = word->place;
+    }
     if (kind < 0) {
-        diagnostics_error(reader->diagnostics, text_behind(&reader->last), "open lacks what is opened: point, group, layer, all, "
-                                                                           "settle or until");
-        reader_skip_line(reader);
+        expect(reader, "open", "point, group, layer, all, settle or until");
     } else if (kind == 0 && read_every(reader, "open point", &building->interval)) {
         building->opening = OPENING_POINTS, building->group = 1;
     } else if (kind == 1 && reader_values(reader, one_count, "open group", value)
@@ -110,6 +147,8 @@ void reader_opening(struct reader *reader, const struct deck_word *word, const s
         building->until = value[0].integer - 1;
         building->until_place = value[0].word.place;
     }
+    if (kind >= 0 && kind < 4)
+        check_end_of_opening(reader, kinds[kind]);
 }
 
 void reader_build(struct reader *reader, const struct deck_word *word, const struct value *values)
@@ -122,8 +161,7 @@ void reader_build(struct reader *reader, const struct deck_word *word, const str
     (void)values;
     building->build_place = word->place;
     if (axis < 0) {
-        diagnostics_error(reader->diagnostics, text_behind(&reader->last), "buil lacks the build direction; expected x, y or z");
-        reader_skip_line(reader);
+        expect(reader, "buil", "the build direction x, y or z");
         return;
     }
     building->axis = axis;
@@ -147,7 +185,7 @@ void reader_scan(struct reader *reader, const struct deck_word *word, const stru
         building->is_serpentine = order == SCAN_RASTER && reader_optional(reader, serpentine) == 0;
     }
     if (order < 0 && reader_at_line_end(reader)) {
-        diagnostics_error(reader->diagnostics, text_behind(&reader->last), "scan lacks its angles; expected numbers, deck or raster");
+        expect(reader, "scan", "angles, deck or raster");
         return;
     }
     if (!reader_at_line_end(reader))
@@ -171,6 +209,14 @@ static struct scene_transformation *transformation_of(struct reader *reader, con
     return &scene->materials[material->integer - 1].transformation;
 }
 
+/* Notes that a word is given for a material, which it may be once. */
+static void note_given(struct reader *reader, const struct deck_word *word, const char *name, long material, bool *is_given)
+{
+    if (*is_given)
+        diagnostics_error(reader->diagnostics, word->place, "'%s' of material %ld was given before", name, material);
+    *is_given = true;
+}
+
 const struct argument reader_residual_arguments[] = {COUNT("material"), {"along", "stress", ARGUMENT_REAL, LIMIT_NONE},
     {"across", "stress", ARGUMENT_REAL, LIMIT_NONE}, {"shear", "stress", ARGUMENT_REAL, LIMIT_NONE}, {0}};
 
@@ -179,7 +225,7 @@ void reader_residual(struct reader *reader, const struct deck_word *word, const 
     struct scene_transformation *entry = transformation_of(reader, word, &values[0]);
     if (!entry)
         return;
-    entry->has_residual = true;
+    note_given(reader, word, "resi", values[0].integer, &entry->has_residual);
     entry->residual_place = word->place;
     for (int i = 0; i < 3; i++)
         entry->residual[i] = values[1 + i].real;
@@ -193,7 +239,7 @@ void reader_phase(struct reader *reader, const struct deck_word *word, const str
     struct scene_transformation *entry = transformation_of(reader, word, &values[0]);
     if (!entry)
         return;
-    entry->has_phase = true;
+    note_given(reader, word, "phas", values[0].integer, &entry->has_phase);
     entry->phase_place = word->place;
     entry->phase_densities[0] = values[1].real;
     entry->phase_densities[1] = values[2].real;
@@ -206,10 +252,12 @@ void reader_heat(struct reader *reader, const struct deck_word *word, const stru
 {
     static const char *const signs[] = {"heat", "cool", NULL};
     int sign = reader_optional(reader, signs);
+    if (sign < 0 && has_more(reader))
+        expect(reader, "ther", "heat or cool");
     struct scene_transformation *entry = transformation_of(reader, word, &values[0]);
     if (!entry)
         return;
-    entry->has_heat = true;
+    note_given(reader, word, "ther", values[0].integer, &entry->has_heat);
     entry->heat_place = word->place;
     entry->expansion = values[1].real;
     entry->temperature = values[2].real;
@@ -225,19 +273,20 @@ static void set_hold(struct reader *reader, struct scene_hold *hold, const struc
     struct scene *scene = reader->scene;
     for (int a = 0; a < 3; a++)
         hold->holds[a] = flags[a].integer == 1;
+    if (!hold->holds[0] && !hold->holds[1] && !hold->holds[2])
+        diagnostics_warning(reader->diagnostics, hold->place, "fixn holds nothing: ix, iy and iz are 0");
     scene->holds = memory_grow(scene->holds, &scene->holds_capacity, scene->n_holds + 1, sizeof *hold, "fixn");
     scene->holds[scene->n_holds++] = *hold;
 }
 
-static void read_annulus(struct reader *reader)
+static void read_annulus(struct reader *reader, const struct deck_word *word)
 {
     static const char *const axes[] = {"x", "y", "z", NULL};
     static const struct argument arguments[] = {LENGTH("a"), LENGTH("b"), SIZE("r0"), SIZE("r1"), FLAG("ix"), FLAG("iy"), FLAG("iz"), {0}};
-    struct scene_hold hold = {.is_annulus = true, .axis = reader_optional(reader, axes)};
+    struct scene_hold hold = {.is_annulus = true, .axis = reader_optional(reader, axes), .place = word->place};
     struct value values[KEYWORD_ARGUMENTS];
     if (hold.axis < 0) {
-        diagnostics_error(reader->diagnostics, text_behind(&reader->last), "fixn cyli lacks its axis; expected x, y or z");
-        reader_skip_line(reader);
+        expect(reader, "fixn cyli", "its axis x, y or z");
         return;
     }
     if (!reader_values(reader, arguments, "fixn cyli", values))
@@ -256,12 +305,11 @@ void reader_hold(struct reader *reader, const struct deck_word *word, const stru
     static const char *const annulus[] = {"cyli", NULL};
     static const struct argument arguments[] = {LENGTH("x0"), LENGTH("x1"), LENGTH("y0"), LENGTH("y1"), LENGTH("z0"), LENGTH("z1"),
                                                 FLAG("ix"), FLAG("iy"), FLAG("iz"), {0}};
-    struct scene_hold hold = {0};
+    struct scene_hold hold = {.place = word->place};
     struct value values[KEYWORD_ARGUMENTS];
-    (void)word;
     (void)values_unused;
     if (reader_optional(reader, annulus) == 0) {
-        read_annulus(reader);
+        read_annulus(reader, word);
         return;
     }
     if (!reader_values(reader, arguments, "fixn", values))
@@ -297,7 +345,16 @@ static void check_ghosts(struct reader *reader)
                           "'open settle' needs a schedule; expected 'open point', 'open group', 'open layer' or 'open all'");
     if (building->opening == OPENING_NONE && building->until >= 0)
         diagnostics_error(reader->diagnostics, building->until_place,
-                          "'open until' needs a schedule; expected 'open point' or 'open group'");
+                          "'open until' needs a schedule; expected 'open point', 'open group', 'open layer' or 'open all'");
+}
+
+/* A transformation strain needs a law whose stress is that of the strain rate. */
+static void check_strain(struct reader *reader, const struct law *law, const char *word, struct deck_place place)
+{
+    if (law && (law->needs_eos || !law->rotates))
+        diagnostics_error(reader->diagnostics, place, "'%s' does not go with law '%s'; take an elastic or plastic one", word, law->name);
+    else if (reader->scene->is_total)
+        diagnostics_error(reader->diagnostics, place, "'%s' does not go with 'TLmp'", word);
 }
 
 /* What a material's transformation strains can't be combined with. */
@@ -305,16 +362,13 @@ static void check_transformation(struct reader *reader, const struct scene_mater
 {
     const struct scene *scene = reader->scene;
     const struct scene_transformation *t = &entry->transformation;
-    const struct law *law = entry->material.law;
-    const struct deck_place strain = t->has_phase ? t->phase_place : t->heat_place;
-    const char *word = t->has_phase ? "phas" : "ther";
-    bool has_strain = t->has_phase || t->has_heat;
+    const struct law *law = entry->is_given ? entry->material.law : NULL;
     if (t->has_residual && scene->is_total)
         diagnostics_error(reader->diagnostics, t->residual_place, "'resi' does not go with 'TLmp'");
-    if (has_strain && entry->is_given && (law->needs_eos || !law->rotates))
-        diagnostics_error(reader->diagnostics, strain, "'%s' does not go with law '%s'; take an elastic or plastic one", word, law->name);
-    if (has_strain && scene->is_total)
-        diagnostics_error(reader->diagnostics, strain, "'%s' does not go with 'TLmp'", word);
+    if (t->has_phase)
+        check_strain(reader, law, "phas", t->phase_place);
+    if (t->has_heat)
+        check_strain(reader, law, "ther", t->heat_place);
     if (t->has_heat && scene->building.opening != OPENING_POINTS)
         diagnostics_error(reader->diagnostics, t->heat_place,
                           "'ther' heats the place of the particle that opens; expected 'open point' or 'open group'");
@@ -329,6 +383,9 @@ static void check_scan(struct reader *reader)
     if (scene->building.n_angles > 0 && !has_residual && scene->building.order == SCAN_DECK)
         diagnostics_warning(reader->diagnostics, scene->building.scan_place,
                             "the angles of 'scan' turn nothing: there is no residual stress ('resi') and no 'scan raster'");
+    if (scene->building.order == SCAN_RASTER && scene->building.opening != OPENING_POINTS && scene->building.until < 0)
+        diagnostics_warning(reader->diagnostics, scene->building.scan_place,
+                            "'scan raster' orders nothing: particles do not open by 'open point' or 'open group'");
 }
 
 /* Mass scaling changes densities where a law takes them from the mass. */
@@ -339,11 +396,38 @@ static void check_mass_scale(struct reader *reader)
         return;
     if (scene->is_total)
         diagnostics_error(reader->diagnostics, reader->mass_scale_place, "'mscl' does not go with 'TLmp'");
-    for (size_t i = 0; i < scene->n_materials; i++)
-        if (scene->materials[i].is_given && scene->materials[i].material.law->needs_eos)
+    for (size_t i = 0; i < scene->n_materials; i++) {
+        const struct law *law = scene->materials[i].material.law;
+        if (!scene->materials[i].is_given)
+            continue;
+        for (const enum column *column = law->columns; *column != COLUMN_NONE && !law->needs_eos; column++)
+            if (*column == COLUMN_TEMPERATURE)
+                diagnostics_error(reader->diagnostics, reader->mass_scale_place,
+                                  "'mscl' does not go with law '%s', whose temperature follows the density", law->name);
+        if (law->needs_eos)
             diagnostics_error(reader->diagnostics, reader->mass_scale_place,
-                              "'mscl' does not go with law '%s', whose pressure follows the density",
-                              scene->materials[i].material.law->name);
+                              "'mscl' does not go with law '%s', whose pressure follows the density", law->name);
+    }
+}
+
+/* A box that holds no node: its limits lie between two of them. */
+static void check_holds(struct reader *reader)
+{
+    const struct scene *scene = reader->scene;
+    for (size_t i = 0; i < scene->n_holds; i++) {
+        const struct scene_hold *hold = &scene->holds[i];
+        for (int a = 0; a < 3 && !hold->is_annulus; a++) {
+            const double low = scene->grid[2 * a], size = scene->cell_size;
+            const double first = fmax(0, ceil((hold->box[2 * a] - low) / size - 1e-6));
+            const double last = fmin(floor((scene->grid[2 * a + 1] - low) / size + 0.5), floor((hold->box[2 * a + 1] - low) / size + 1e-6));
+            if (first > last) {
+                diagnostics_warning(reader->diagnostics, hold->place,
+                                    "fixn holds no node: none lies at %c from %g to %g; nodes lie at %g and every %g from there", "xyz"[a],
+                                    hold->box[2 * a], hold->box[2 * a + 1], low, size);
+                break;
+            }
+        }
+    }
 }
 
 /* What follows from densities in the equations of motion; the particles' masses come later. */
@@ -383,6 +467,7 @@ void reader_finish_process(struct reader *reader)
         check_transformation(reader, &scene->materials[i]);
     check_scan(reader);
     check_mass_scale(reader);
+    check_holds(reader);
     if (scene->fixed_step > 0)
         check_fixed_step(reader);
     scale_masses(reader->scene);

@@ -111,6 +111,7 @@ struct scene_hold {
     double centre[2]; /* of the annulus, in the two other coordinates in the order x y z */
     double radius[2];
     bool holds[3];
+    struct deck_place place;
 };
 
 struct scene_curve {

@@ -79,6 +79,8 @@ static double add_strain(const struct scene *scene, struct store *store, size_t 
         trace += store->real[COLUMN_STRESS][a][p];
         store->real[COLUMN_STRESS][a][p] -= change;
     }
+    if (store_has(store, COLUMN_MEAN_STRESS))
+        store->real[COLUMN_MEAN_STRESS][0][p] -= change;
     double energy = store->real[COLUMN_VOLUME][0][p] * strain * (1.5 * change - trace);
     store->real[COLUMN_ENERGY][0][p] += energy;
     return energy;
@@ -159,8 +161,8 @@ double heat_switch_on(struct heat *heat, const struct scene *scene, struct store
     int32_t low[3], high[3], cell[3];
     for (int a = 0; a < 3; a++) {
         centre[a] = store->real[COLUMN_POSITION][a][p];
-        low[a] = (int32_t)fmax(0, floor((centre[a] - radius - frame->low[a]) / frame->size));
-        high[a] = (int32_t)fmin(frame->cells[a] - 1, floor((centre[a] + radius - frame->low[a]) / frame->size));
+        low[a] = (int32_t)fmin(frame->cells[a], fmax(0, floor((centre[a] - radius - frame->low[a]) / frame->size)));
+        high[a] = (int32_t)fmax(-1, fmin(frame->cells[a] - 1, floor((centre[a] + radius - frame->low[a]) / frame->size)));
     }
     for (int32_t component = 0; component < components; component++)
         for (cell[2] = low[2]; cell[2] <= high[2]; cell[2]++)
