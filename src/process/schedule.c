@@ -25,10 +25,25 @@ struct place {
 
 /* --- layers --- */
 
-/* Spacing of the particles, from the volume of the first one. */
-static double spacing_of(const struct store *store)
+/* The lattice on which a part is built: spacing, and a corner half a spacing beyond its particles. */
+struct lattice {
+    double spacing, corner[3];
+};
+
+/* The closed particles' lattice, by the smallest of them; that of all where none is closed. */
+static struct lattice find_lattice(const struct store *store, const struct place *places, size_t count, bool has_closed)
 {
-    return cbrt(store->real[COLUMN_VOLUME][0][0]);
+    struct lattice lattice = {INFINITY, {INFINITY, INFINITY, INFINITY}};
+    for (size_t i = 0; i < count; i++) {
+        if (has_closed && places[i].is_open)
+            continue;
+        lattice.spacing = fmin(lattice.spacing, cbrt(store->real[COLUMN_VOLUME][0][i]));
+        for (int a = 0; a < 3; a++)
+            lattice.corner[a] = fmin(lattice.corner[a], store->real[COLUMN_POSITION][a][i]);
+    }
+    for (int a = 0; a < 3; a++)
+        lattice.corner[a] -= 0.5 * lattice.spacing;
+    return lattice;
 }
 
 static int by_height(const void *left, const void *right)
@@ -66,13 +81,14 @@ double schedule_angle(const struct scene *scene, int32_t layer)
 
 /* Lines at the angle of the layer, side by side: a spacing wide, or along the diagonals of a lattice
  * as close as these are. Their order goes with growing y (x where lines run along y). */
-static void find_track(const struct scene *scene, const struct store *store, struct place *place, double spacing)
+static void find_track(const struct scene *scene, const struct store *store, struct place *place, const struct lattice *lattice)
 {
     const int first = (scene->building.axis + 1) % 3, second = (scene->building.axis + 2) % 3;
     const double angle = schedule_angle(scene, place->layer) * acos(-1) / 180;
-    const double x = store->real[COLUMN_POSITION][first][place->id], y = store->real[COLUMN_POSITION][second][place->id];
+    const double x = store->real[COLUMN_POSITION][first][place->id] - lattice->corner[first];
+    const double y = store->real[COLUMN_POSITION][second][place->id] - lattice->corner[second];
     const bool is_diagonal = fabs(fabs(sin(angle)) - fabs(cos(angle))) < 1e-9;
-    const double width = is_diagonal ? spacing * sqrt(0.5) : spacing;
+    const double width = is_diagonal ? lattice->spacing * sqrt(0.5) : lattice->spacing;
     const double across = y * cos(angle) - x * sin(angle);
     const bool is_upright = fabs(cos(angle)) < 1e-9, grows = is_upright ? sin(angle) < 0 : cos(angle) > 0;
     place->track = floor((grows ? across : -across) / width + SAME);
@@ -109,14 +125,15 @@ static void turn_lines(struct place *places, size_t count)
 }
 
 /* Sorts by state, layer where layers count, track, place along it, id. */
-static void sort_places(const struct scene *scene, const struct store *store, struct place *places, size_t count, double spacing)
+static void sort_places(const struct scene *scene, const struct store *store, struct place *places, size_t count,
+                        const struct lattice *lattice)
 {
     const bool is_raster = scene->building.order == SCAN_RASTER;
     const bool by_layer = is_raster || scene->building.opening == OPENING_LAYERS;
     for (size_t i = 0; i < count; i++) {
         places[i].height = by_layer && !places[i].is_open ? places[i].layer : 0;
         if (is_raster && !places[i].is_open)
-            find_track(scene, store, &places[i], spacing);
+            find_track(scene, store, &places[i], lattice);
     }
     qsort(places, count, sizeof *places, by_opening);
     if (is_raster && scene->building.is_serpentine)
@@ -178,20 +195,22 @@ struct schedule *schedule_open(const struct scene *scene, struct store *store, s
     const size_t count = store->count;
     struct schedule *schedule = memory_array(1, sizeof *schedule, "the schedule");
     struct place *places = memory_array(count, sizeof *places, "the schedule");
-    const double spacing = spacing_of(store);
+    bool has_closed = false;
     read_states(scene, places);
     for (size_t i = 0; i < count; i++) {
         places[i].id = (int32_t)i;
         places[i].height = store->real[COLUMN_POSITION][scene->building.axis][i];
+        has_closed = has_closed || !places[i].is_open;
     }
-    find_layers(scene, places, count, spacing);
+    const struct lattice lattice = find_lattice(store, places, count, has_closed);
+    find_layers(scene, places, count, lattice.spacing);
     if (store_has(store, COLUMN_LAYER))
         for (size_t i = 0; i < count; i++)
             store->integer[COLUMN_LAYER][places[i].id] = places[i].layer;
     *n_open = count;
     if (scene->building.has_ghosts) {
         int32_t *order = memory_array(count, sizeof *order, "the schedule");
-        sort_places(scene, store, places, count, spacing);
+        sort_places(scene, store, places, count, &lattice);
         *n_open = 0;
         for (size_t i = 0; i < count; i++) {
             *n_open += places[i].is_open;
