@@ -77,6 +77,9 @@ static void admit(struct mpm *mpm, int32_t n)
     for (size_t p = first; p < first + (size_t)n; p++) {
         const double mass = store->real[COLUMN_MASS][0][p];
         double square = 0;
+        note_material(mpm, p);
+        if (mpm->scene->lost == LOST_DROP && mpm->cells->cell[p] == CELL_NONE)
+            continue;
         for (int a = 0; a < 3; a++) {
             const double velocity = store->real[COLUMN_VELOCITY][a][p];
             square += velocity * velocity;
@@ -87,7 +90,6 @@ static void admit(struct mpm *mpm, int32_t n)
         mpm->sums.kinetic += 0.5 * mass * square;
         mpm->external_work += 0.5 * mass * square;
         take_energy(mpm, store->real[COLUMN_ENERGY][0][p]);
-        note_material(mpm, p);
     }
     grid_follow(mpm->grid);
     if (mpm->centres)
