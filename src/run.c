@@ -5,6 +5,7 @@
 #include "base/threads.h"
 #include "deck/echo.h"
 #include "deck/reader.h"
+#include "mpm/equilibrium.h"
 #include "output/animation.h"
 #include "summary.h"
 #include "version.h"
@@ -218,9 +219,18 @@ enum status run_open(struct run *run, const struct run_options *options)
     return status;
 }
 
+/* Whether particles are still to open, or a hot zone is to cool, before the run ends. */
+static bool opens_more(const struct run *run)
+{
+    const long next = building_next_step(run->mpm);
+    return next > 0 && !building_has_settled(run->mpm, next - 1);
+}
+
 /* Whether the last step ended the run for another reason than the end time; its state is written. */
 static bool ends_by_schedule(const struct run *run)
 {
+    if (run->scene->finds_equilibrium)
+        return !opens_more(run);
     return building_has_settled(run->mpm, run->mpm->step);
 }
 
@@ -228,6 +238,8 @@ bool run_goes_on(const struct run *run)
 {
     const struct scene *scene = run->scene;
     const struct sums *sums = &run->mpm->sums;
+    if (scene->finds_equilibrium)
+        return run->mpm->step == 0 || opens_more(run);
     if (scene->building.settling >= 0)
         return !ends_by_schedule(run);
     double time = run->mpm->time, least = fmax(scene->end_time, scene->settling[0]);
@@ -265,14 +277,39 @@ static enum status write_step(struct run *run)
     return status;
 }
 
-enum status run_step(struct run *run)
+/* An equilibrium instead of a time step: counted in time, told in the log. */
+static struct instability equilibrate(struct run *run)
 {
+    const long due = building_next_step(run->mpm);
+    if (due > 0)
+        building_step(run->mpm, due);
+    run->mpm->smooths = store_has(run->mpm->store, COLUMN_SMOOTHED_PRESSURE);
+    run->mpm->time += 1;
+    mpm_equilibrate(run->mpm);
+    if (equilibrium_report(run->mpm)->floating > 0 && !run->has_told_floating) {
+        run->has_told_floating = true;
+        summary_floating(run->mpm, stderr);
+        summary_floating(run->mpm, run->log);
+    }
+    summary_equilibrium(run->mpm, run->log);
+    return equilibrium_check(run->mpm);
+}
+
+static struct instability advance(struct run *run)
+{
+    if (run->scene->finds_equilibrium)
+        return equilibrate(run);
     run->mpm->smooths = store_has(run->mpm->store, COLUMN_SMOOTHED_PRESSURE)
                      && (run->mpm->time + run->mpm->time_step >= (double)run->next_output
                          || building_has_settled(run->mpm, run->mpm->step + 1));
-    run->lost_before_step = run->mpm->cells->count - run->mpm->cells->in_cells;
     mpm_step(run->mpm);
-    struct instability instability = mpm_check(run->mpm);
+    return mpm_check(run->mpm);
+}
+
+enum status run_step(struct run *run)
+{
+    run->lost_before_step = run->mpm->cells->count - run->mpm->cells->in_cells;
+    struct instability instability = advance(run);
     if (instability.is_stopped) {
         if (run->scene->writes_lost)
             write_lost(run);

@@ -42,6 +42,7 @@ struct run {
     unsigned char *is_shown; /* per id, room for the animation */
     float next_output, next_report;
     long dumps;
+    bool has_told_floating; /* that free motions of bodies are taken out (quas) */
     double started;
 };
 

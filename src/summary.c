@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "summary.h"
 #include "base/threads.h"
+#include "mpm/equilibrium.h"
 
 #include <math.h>
 
@@ -52,6 +53,41 @@ void summary_instability(const struct mpm *mpm, const struct instability *instab
                 mpm->store->real[COLUMN_VELOCITY][1][p], mpm->store->real[COLUMN_VELOCITY][2][p]);
     }
     fprintf(stream, "       %s; the output up to the step before is kept\n", instability->advice);
+}
+
+void summary_floating(const struct mpm *mpm, FILE *stream)
+{
+    const struct equilibrium_report *report = equilibrium_report(mpm);
+    fprintf(stream, "mpm3d: warning: body %d floats freely: %d rigid motions are taken out, its centre and orientation stay",
+            report->floating_body + 1, report->floating_motions);
+    if (report->floating > 1)
+        fprintf(stream, " (%ld parts float)", report->floating);
+    fprintf(stream, "\n");
+}
+
+void summary_equilibrium(const struct mpm *mpm, FILE *stream)
+{
+    const struct equilibrium_report *report = equilibrium_report(mpm);
+    bool is_found = report->state == EQUILIBRIUM_FOUND;
+    fprintf(stream, "%s at time %.6E: residual %.1e of the forces, %ld Newton steps, %ld iterations",
+            is_found ? "equilibrium found" : "no equilibrium found", mpm->time, report->residual, report->newton_steps,
+            report->iterations);
+    if (report->damped_steps > 0)
+        fprintf(stream, ", then %ld steps with kinetic damping", report->damped_steps);
+    fprintf(stream, "\n");
+    if (!is_found && report->newton_steps > 0)
+        fprintf(stream, "largest unbalanced force at the node (%.6g, %.6g, %.6g)\n", report->worst[0], report->worst[1],
+                report->worst[2]);
+}
+
+/* What the linear systems of quas took. */
+static void print_systems(const struct mpm *mpm, FILE *stream)
+{
+    long applications;
+    double seconds;
+    equilibrium_cost(mpm, &applications, &seconds);
+    fprintf(stream, "  the stiffness was applied %ld times, with all that belongs to it %.2f ns per particle\n\n", applications,
+            applications > 0 ? 1e9 * seconds / ((double)applications * (double)mpm->store->count) : 0);
 }
 
 static void print_timers(const struct mpm *mpm, const struct timers *timers, double seconds, FILE *stream)
@@ -106,6 +142,8 @@ void summary_end(const struct mpm *mpm, const struct timers *timers, double seco
                                           [STATUS_FILE] = "stopped, a file could not be written"};
     const char *ending = status == STATUS_INTERRUPTED ? "interrupted" : endings[status];
     print_timers(mpm, timers, seconds, stream);
+    if (mpm->equilibrium)
+        print_systems(mpm, stream);
     fprintf(stream, "%s after %ld steps at time %.6E: ", ending, mpm->step, mpm->time);
     print_lost(mpm, stream);
     fprintf(stream, ", energy balance %.1e, momentum change %.1e\n", mpm_energy_error(mpm), momentum_change(mpm));

@@ -20,4 +20,8 @@ void summary_instability(const struct mpm *mpm, const struct instability *instab
 /* The same start in a few lines, for --check. */
 void summary_check(const struct mpm *mpm, FILE *stream);
 
+/* Of a run with quas: that free motions of bodies are taken out, and how the last equilibrium was found. */
+void summary_floating(const struct mpm *mpm, FILE *stream);
+void summary_equilibrium(const struct mpm *mpm, FILE *stream);
+
 #endif

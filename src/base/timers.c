@@ -8,6 +8,7 @@ static const char *const names[PHASE_COUNT] = {
     [PHASE_GRID] = "grid",
     [PHASE_VELOCITY] = "grid to particles",
     [PHASE_STRESS] = "strain and stress",
+    [PHASE_SYSTEM] = "linear systems",
     [PHASE_CELLS] = "cell lists",
     [PHASE_SORT] = "sorting",
     [PHASE_SUMS] = "sums and checks",

@@ -9,6 +9,7 @@ enum phase {
     PHASE_GRID,
     PHASE_VELOCITY,
     PHASE_STRESS,
+    PHASE_SYSTEM,
     PHASE_CELLS,
     PHASE_SORT,
     PHASE_SUMS,

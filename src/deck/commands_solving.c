@@ -182,6 +182,19 @@ static void read_deformation(struct reader *reader, const struct deck_word *word
     reader->scene->tracks_deformation = true;
 }
 
+static void read_equilibrium(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    static const struct argument steps[] = {{"maxit", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}};
+    struct scene *scene = reader->scene;
+    struct value value[2];
+    scene->finds_equilibrium = true;
+    scene->equilibrium_tolerance = values[0].real;
+    scene->equilibrium_steps = 20;
+    reader->equilibrium_place = word->place;
+    if (!reader_at_line_end(reader) && reader_values(reader, steps, "quas", value))
+        scene->equilibrium_steps = value[0].integer;
+}
+
 static void read_kinetic_damping(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     (void)word;
@@ -233,6 +246,11 @@ const struct keyword solving_keywords[] = {
      .field = offsetof(struct scene, fixed_step), .apply = note_fixed_step, .doc = "fixed time step in place of dtsc, checked against the stable one; 0: none"},
     {.name = "drda", .apply = read_kinetic_damping,
      .doc = "kinetic damping: velocities are set to zero whenever the kinetic energy falls"},
+    {.name = "quas", .long_name = "quasistatic",
+     .arguments = (const struct argument[]){{"tol", NULL, ARGUMENT_REAL, LIMIT_POSITIVE}, {0}}, .apply = read_equilibrium,
+     .doc = "no time steps: the static equilibrium is found directly, with unbalanced forces of tol times those at the start "
+            "(1e-6 is a good one); at most maxit Newton steps (`quas tol maxit`, 20), then kinetic damping. endt is not "
+            "looked at; each equilibrium counts 1 in time and is written"},
     {.name = "xfer", .long_name = "transfer",
      .arguments = (const struct argument[]){{"flip|pic|apic|blend", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}},
      .apply = read_transfer,
@@ -289,6 +307,29 @@ static void check_total(struct reader *reader)
                               scene->materials[i].material.law->name);
 }
 
+/* What static equilibrium can't be found with. */
+static void check_equilibrium(struct reader *reader)
+{
+    const struct scene *scene = reader->scene;
+    static const char *const shapes[] = {[INTERPOLATION_GIMP] = "gimp", [INTERPOLATION_GIMP_OWN] = "gimp",
+                                         [INTERPOLATION_BIMP] = "bimp", [INTERPOLATION_STAGGERED] = "sgmp"};
+    const struct deck_place place = reader->equilibrium_place;
+    if (scene->contact != CONTACT_NONE)
+        diagnostics_error(reader->diagnostics, place, "'quas' does not go with 'cont'");
+    if (scene->is_total)
+        diagnostics_error(reader->diagnostics, place, "'quas' does not go with 'TLmp'");
+    if (scene->interpolation != INTERPOLATION_LINEAR)
+        diagnostics_error(reader->diagnostics, place, "'quas' does not go with '%s'; only with linear shapes, with or without bbar",
+                          shapes[scene->interpolation]);
+    if (scene->n_velocities > 0)
+        diagnostics_error(reader->diagnostics, place, "'quas' does not go with 'velo': nothing moves on its own");
+    for (size_t i = 0; i < scene->n_materials; i++)
+        if (scene->materials[i].is_given && scene->materials[i].material.law->needs_eos)
+            diagnostics_error(reader->diagnostics, place,
+                              "'quas' does not go with '%s': only with laws that have an elastic stiffness",
+                              scene->materials[i].material.law->name);
+}
+
 /* Pairs of words that do not go together (spec 10.1: D10, D12), and words that need others. */
 void reader_finish_solving(struct reader *reader)
 {
@@ -297,6 +338,8 @@ void reader_finish_solving(struct reader *reader)
         check_contact(reader);
     if (scene->is_total)
         check_total(reader);
+    if (scene->finds_equilibrium)
+        check_equilibrium(reader);
     if (scene->transfer == TRANSFER_AFFINE && scene->interpolation != INTERPOLATION_LINEAR)
         diagnostics_error(reader->diagnostics, reader->transfer_place, "'xfer apic' does not go with 'gimp', 'bimp' or 'sgmp'");
     if (scene->averages_volume && (scene->interpolation != INTERPOLATION_LINEAR || scene->is_total))

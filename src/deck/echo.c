@@ -90,6 +90,11 @@ static void echo_solving(const struct scene *scene, FILE *stream)
         fprintf(stream, "UVFp\n");
     if (scene->kinetic_damping)
         fprintf(stream, "drda\n");
+    if (scene->finds_equilibrium) {
+        fprintf(stream, "quas");
+        print_number(stream, scene->equilibrium_tolerance);
+        fprintf(stream, " %ld\n", scene->equilibrium_steps);
+    }
     if (scene->averages_volume)
         fprintf(stream, "bbar\n");
     if (scene->transfer == TRANSFER_AFFINE)

@@ -155,6 +155,9 @@ struct scene {
     double nodal_damping;    /* ndam: force per velocity on each node */
     double mass_scale;       /* mscl */
     double fixed_step;       /* dtfx; 0: the stable one */
+    bool finds_equilibrium;       /* quas: the run goes from equilibrium to equilibrium */
+    double equilibrium_tolerance; /* of unbalanced forces, relative */
+    long equilibrium_steps;       /* Newton steps, at most */
     bool sorts;
     bool writes_animation, writes_vtk, smooths_pressure, bare_names, bare_headers;
     enum vtk_format vtk_format;

@@ -163,60 +163,27 @@ void grid_follow(struct grid *grid)
         }
 }
 
-/* Nodes of a row: all four of a block, or two. */
-typedef double four __attribute__((vector_size(BLOCK_EDGE * sizeof(double)), aligned(sizeof(double)), may_alias));
-typedef double two __attribute__((vector_size(2 * sizeof(double)), aligned(sizeof(double)), may_alias));
-
-/* Goes over the rows from `begin` to `stop`, of nodes of one type, and over `count` fields of each. */
-#define READ_ROWS(type, begin, stop)                                                                                   \
-    for (int r = begin; r < stop; r++) {                                                                               \
-        const double *from = source[layout->rows[r].neighbour] + layout->rows[r].node;                                 \
-        double *to = patch + layout->rows[r].place;                                                                    \
-        for (int f = 0; f < count; f++, from += BLOCK_CELLS, to += nodes)                                              \
-            *(type *)to = *(const type *)from;                                                                         \
-    }
-
 THREADS_VECTORISED
 void grid_read_patch(const struct grid *grid, int32_t block, int first, int count, double *patch)
 {
     const int32_t *neighbour = grid->cells->blocks[block].neighbour;
-    const struct patch_layout *layout = &grid->layout;
-    const int nodes = layout->nodes;
     const double *source[BLOCK_NEIGHBOURS];
     for (int i = 0; i < BLOCK_NEIGHBOURS; i++)
         source[i] = neighbour[i] < 0 ? grid->nothing : grid_field(grid, neighbour[i], first);
-    READ_ROWS(four, 0, layout->end_of_four)
-    READ_ROWS(two, layout->end_of_four, layout->end_of_two)
-    READ_ROWS(double, layout->end_of_two, layout->end)
+    patch_read(&grid->layout, source, count, patch);
 }
-
-/* The other way, and adding. A block that gives nothing is left out: it has no patch. */
-#define COLLECT_ROWS(type, begin, stop)                                                                                \
-    for (int r = begin; r < stop; r++) {                                                                               \
-        const double *from = source[layout->rows[r].mirrored];                                                         \
-        if (!from)                                                                                                     \
-            continue;                                                                                                  \
-        from += layout->rows[r].place;                                                                                 \
-        double *to = sum + layout->rows[r].node;                                                                       \
-        for (int f = 0; f < count; f++, from += nodes, to += BLOCK_CELLS)                                              \
-            *(type *)to += *(const type *)from;                                                                        \
-    }
 
 THREADS_VECTORISED
 void grid_collect(struct grid *grid, int32_t b, int first, int count, int from_field)
 {
     const int32_t *neighbour = grid->cells->blocks[b].neighbour;
-    const struct patch_layout *layout = &grid->layout;
-    const int nodes = layout->nodes;
     const double *source[BLOCK_NEIGHBOURS];
     double *sum = grid_field(grid, b, first);
     for (int i = 0; i < BLOCK_NEIGHBOURS; i++)
         source[i] = neighbour[i] < 0 || neighbour[i] >= grid->cells->active ? NULL
                                                                             : grid_patch(grid, neighbour[i], from_field);
     memset(sum, 0, (size_t)count * BLOCK_CELLS * sizeof *sum);
-    COLLECT_ROWS(four, 0, layout->end_of_four)
-    COLLECT_ROWS(two, layout->end_of_four, layout->end_of_two)
-    COLLECT_ROWS(double, layout->end_of_two, layout->end)
+    patch_sum(&grid->layout, source, count, sum);
 }
 
 /* P += F step; both zero in fixed directions. */

@@ -4,6 +4,7 @@
 #define MPM_GRID_H
 
 #include "base/threads.h"
+#include "mpm/patch.h"
 #include "particles/cell_list.h"
 
 /* What a node holds in the course of a step. */
@@ -17,25 +18,7 @@ enum node_field {
     NODE_FIELDS_CONTACT = NODE_NORMAL + 3
 };
 
-/* A patch is a block's nodes with those of its neighbours that its particles reach: nodes 0 ... 4
- * along each axis for supports of a cell, -1 ... 5 for wider ones. */
 enum { PATCH_FIELDS = 7, PATCH_FIELDS_CONTACT = 10, LARGEST_PATCH = 392 };
-
-/* Nodes that lie side by side in one block and in the patch. */
-struct patch_row {
-    int neighbour; /* index of the block among the neighbours */
-    int mirrored;  /* seen from that block: index of the block whose patch this is */
-    int node, place;
-};
-
-struct patch_layout {
-    int edge;   /* nodes along an axis */
-    int row;    /* numbers from one row to the next: rows of wide supports don't cross cache lines */
-    int nodes;  /* numbers to keep for a field */
-    int origin; /* place of the block's own node 0 along an axis */
-    struct patch_row rows[160]; /* those of four nodes first, then those of two, then single nodes */
-    int end_of_four, end_of_two, end;
-};
 
 struct scene_hold;
 

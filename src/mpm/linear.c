@@ -100,9 +100,9 @@ static void gather_velocity(struct mpm *mpm, int32_t b)
         velocity_blend(mpm, b);
     else if (mpm->scene->scheme == SCHEME_USF)
         velocity_usf(mpm, b);
-    else if (mpm->scene->scheme == SCHEME_USL && mpm->has_external_force)
+    else if (mpm->strains_at_once && mpm->has_external_force)
         all_usl_external(mpm, b);
-    else if (mpm->scene->scheme == SCHEME_USL)
+    else if (mpm->strains_at_once)
         all_usl(mpm, b);
     else if (mpm->has_external_force)
         velocity_musl_external(mpm, b);
@@ -124,10 +124,10 @@ static void strain_and_move(struct mpm *mpm, int32_t b)
 
 static void gather_strain(struct mpm *mpm, int32_t b)
 {
-    if (mpm->scene->scheme == SCHEME_USF)
+    if (mpm->moves_last)
+        strain_and_move(mpm, b);
+    else
         strain_only(mpm, b);
-    else if (mpm->scene->scheme == SCHEME_MUSL || mpm->scene->transfer != TRANSFER_FLIP)
-        strain_and_move(mpm, b); /* otherwise done with the velocities */
 }
 
 /* --- smoothed pressure --- */

@@ -14,6 +14,7 @@ struct face_load;
 struct contact;
 struct schedule;
 struct heat;
+struct equilibrium;
 
 /* Sums over particles, per block and in all. */
 struct sums {
@@ -73,9 +74,13 @@ struct mpm {
     bool is_total;           /* total Lagrangian: cells stay, forces from the first Piola-Kirchhoff stress */
     int straining_field;     /* node field of the velocities that strain particles: of the scheme */
     bool shares_always;      /* threads share the work however little there is: a number was asked for */
+    bool strains_at_once;    /* usl: the velocity pass strains and moves the particles too */
+    bool moves_last;         /* particles move where they are strained: in all schemes but usf */
+    bool damps_kinetic;      /* velocities go to zero whenever the kinetic energy falls */
     bool smooths;            /* the next step computes the smoothed pressure */
     bool has_external_force; /* loads, gravity or damping */
     bool has_one_law;        /* all bodies share one material */
+    struct equilibrium *equilibrium; /* for quas, or NULL */
     struct contact *contact; /* NULL: all components share one velocity field */
     double contact_force[3]; /* sum over nodes in the last step */
     struct face_load *faces;
@@ -143,6 +148,13 @@ double mpm_energy_error(const struct mpm *mpm);
  * particles, patch and sums. */
 typedef void block_pass(struct mpm *mpm, int32_t block);
 void mpm_each_block(struct mpm *mpm, block_pass *pass);
+
+/* Clears the blocks' sums before passes add to them. */
+void mpm_clear_sums(struct mpm *mpm);
+
+/* Thesis step 9: the deformed grid is given up; particles find their new cells, and their order in memory
+ * follows when many have moved. */
+void mpm_discard_grid(struct mpm *mpm);
 
 /* Force per particle besides stress (spec 6 C): load, gravity, damping. */
 THREADS_INLINE void mpm_external_force(const struct mpm *mpm, size_t p, double force[3])

@@ -4,6 +4,7 @@
 #include "base/threads.h"
 #include "deck/diagnostics.h"
 #include "mpm/chunk.h"
+#include "mpm/equilibrium.h"
 #include "process/transformation.h"
 
 #include <float.h>
@@ -325,6 +326,9 @@ struct mpm *mpm_open(struct scene *scene, struct timers *timers, struct diagnost
     mpm->is_total = scene->is_total;
     mpm->place = scene->is_total ? COLUMN_INITIAL_POSITION : COLUMN_POSITION;
     mpm->straining_field = scene->scheme == SCHEME_USL ? NODE_MOMENTUM : NODE_STRAINING;
+    mpm->strains_at_once = scene->scheme == SCHEME_USL && scene->transfer == TRANSFER_FLIP && mpm->shape == &shape_linear;
+    mpm->moves_last = scene->scheme != SCHEME_USF;
+    mpm->damps_kinetic = scene->kinetic_damping;
     mpm->rotate = rotations[scene->rotation];
     contact_open(mpm);
     create_bodies(mpm);
@@ -339,6 +343,7 @@ struct mpm *mpm_open(struct scene *scene, struct timers *timers, struct diagnost
     mpm->n_workspaces = threads_available();
     mpm->workspaces = memory_array((size_t)mpm->n_workspaces, sizeof *mpm->workspaces, "threads");
     start_sums(mpm);
+    mpm->equilibrium = equilibrium_open(mpm);
     return mpm;
 }
 
@@ -358,6 +363,7 @@ void mpm_close(struct mpm *mpm)
     building_close(mpm);
     faces_close(mpm);
     contact_close(mpm);
+    equilibrium_close(mpm->equilibrium);
     grid_close(mpm->grid);
     grid_close(mpm->centres);
     cell_list_close(mpm->cells);

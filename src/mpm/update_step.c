@@ -94,6 +94,8 @@ static void update_stress_last(struct mpm *mpm)
 {
     if (mpm->scene->scheme == SCHEME_USF)
         return;
+    if (mpm->strains_at_once) /* done with the velocities */
+        return;
     timers_enter(mpm->timers, PHASE_GRID);
     if (mpm->shape->strain_last)
         mpm->shape->strain_last(mpm);
@@ -123,8 +125,7 @@ static void add_particles(const struct mpm *mpm, int32_t from, int32_t to, struc
     }
 }
 
-/* Step 9: the deformed grid is given up; particles find their new cells. */
-static void discard_grid(struct mpm *mpm)
+void mpm_discard_grid(struct mpm *mpm)
 {
     struct cell_list *cells = mpm->cells;
     const int32_t in_cells = cells->in_cells;
@@ -144,7 +145,7 @@ static void discard_grid(struct mpm *mpm)
         grid_follow(mpm->centres);
 }
 
-static void clear_block_sums(struct mpm *mpm)
+void mpm_clear_sums(struct mpm *mpm)
 {
     size_t active = (size_t)mpm->cells->active;
     mpm->block_sums = memory_grow(mpm->block_sums, &mpm->block_sums_capacity, active, sizeof *mpm->block_sums, "sums");
@@ -223,7 +224,7 @@ static void damp_kinetic(struct mpm *mpm)
 
 void mpm_step(struct mpm *mpm)
 {
-    if (building_step(mpm, mpm->step + 1))
+    if (!mpm->scene->finds_equilibrium && building_step(mpm, mpm->step + 1))
         mpm->time_step = mpm_stable_step(mpm, mpm->sums.fastest);
     const int32_t blocks = mpm->cells->active, frozen_from = mpm->cells->in_cells;
     const struct sums before = mpm->sums;
@@ -233,7 +234,7 @@ void mpm_step(struct mpm *mpm)
     mpm->time += mpm->time_step;
     mpm->momentum_factor = mpm->step == 1 ? 0.5 : 1;
     mpm->load_factor = mpm->scene->loading_time > 0 ? fmin(1, mpm->time / mpm->scene->loading_time) : 1;
-    clear_block_sums(mpm);
+    mpm_clear_sums(mpm);
     smoothing_start(mpm);
     solve_on_grid(mpm);
     update_velocities(mpm);
@@ -244,10 +245,10 @@ void mpm_step(struct mpm *mpm)
     if (mpm->scene->lost != LOST_DROP)
         add_particles(mpm, frozen_from, mpm->cells->count, &mpm->sums);
     balance_energy(mpm, &before, work_before, removed_before);
-    discard_grid(mpm);
+    mpm_discard_grid(mpm);
     timers_enter(mpm->timers, PHASE_SUMS);
     mpm->time_step = mpm_stable_step(mpm, mpm->sums.fastest);
-    if (mpm->scene->kinetic_damping)
+    if (mpm->damps_kinetic)
         damp_kinetic(mpm);
     timers_enter(mpm->timers, PHASE_OTHER);
 }

@@ -1,0 +1,468 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "mpm/equilibrium.h"
+#include "base/conjugate.h"
+#include "base/memory.h"
+#include "base/vector.h"
+#include "mpm/multigrid.h"
+#include "mpm/rigid.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Linear systems are solved to this part of their right side; the tolerance of the search leaves this to them. */
+static const double LINEAR_TOLERANCE = 1e-4, LINEAR_SHARE = 0.3;
+/* A Newton step is shortened so that no displacement gradient at a particle exceeds this. */
+static const double LARGEST_GRADIENT = 0.1;
+/* Forces below this part of those of single particles are their round-off. */
+static const double ROUND_OFF = 1e-14;
+/* Iterations of a linear system; halvings of a step whose forces grow; steps in a row that may let them grow
+ * while particles change cells; time steps with kinetic damping, and of these between two looks at the forces. */
+enum { LINEAR_ITERATIONS = 1000, HALVINGS = 4, GROWING_STEPS = 3, DAMPED_STEPS = 50000, DAMPED_LOOK = 20 };
+
+/* What a step changes in the particles. */
+static const enum column saved[] = {COLUMN_POSITION, COLUMN_STRESS, COLUMN_VOLUME, COLUMN_ENERGY, COLUMN_VISCOUS_PRESSURE,
+                                    COLUMN_PLASTIC_STRAIN, COLUMN_YIELD_STRESS, COLUMN_MEAN_STRESS, COLUMN_EQUIVALENT_STRESS,
+                                    COLUMN_TEMPERATURE, COLUMN_DAMAGE, COLUMN_FAILED, COLUMN_DEFORMATION};
+enum { SAVED = sizeof saved / sizeof saved[0] };
+
+struct equilibrium {
+    struct multigrid multigrid;
+    struct conjugate_room room;
+    struct rigid rigid;
+    double *force, *right, *displacement; /* vectors on the nodes: [block][3][64] */
+    size_t force_capacity, right_capacity, displacement_capacity;
+    double *copy[SAVED][COLUMN_COMPONENTS]; /* the particles before a step */
+    double reference;
+    double limit;    /* the search ends where the forces' length is not above */
+    double size;     /* present length of the unbalanced forces */
+    double work;     /* of external forces in the step just tried */
+    double moved;    /* particles that changed cell in it */
+    bool is_singular; /* a linear system of the search had no solution */
+    double seconds;
+    struct equilibrium_report report;
+};
+
+struct equilibrium *equilibrium_open(const struct mpm *mpm)
+{
+    if (!mpm->scene->finds_equilibrium)
+        return NULL;
+    struct equilibrium *equilibrium = memory_array(1, sizeof *equilibrium, "equilibrium");
+    for (int i = 0; i < SAVED; i++)
+        for (int a = 0; a < COLUMN_COMPONENTS && mpm->store->real[saved[i]][a]; a++)
+            equilibrium->copy[i][a] = memory_array(mpm->store->count, sizeof(double), "equilibrium");
+    return equilibrium;
+}
+
+void equilibrium_close(struct equilibrium *equilibrium)
+{
+    if (!equilibrium)
+        return;
+    multigrid_close(&equilibrium->multigrid);
+    conjugate_close(&equilibrium->room);
+    rigid_close(&equilibrium->rigid);
+    memory_free(equilibrium->force);
+    memory_free(equilibrium->right);
+    memory_free(equilibrium->displacement);
+    for (int i = 0; i < SAVED; i++)
+        for (int a = 0; a < COLUMN_COMPONENTS; a++)
+            memory_free(equilibrium->copy[i][a]);
+    memory_free(equilibrium);
+}
+
+const struct equilibrium_report *equilibrium_report(const struct mpm *mpm)
+{
+    return &mpm->equilibrium->report;
+}
+
+void equilibrium_cost(const struct mpm *mpm, long *applications, double *seconds)
+{
+    *applications = mpm->equilibrium->multigrid.applications;
+    *seconds = mpm->equilibrium->seconds;
+}
+
+/* --- forces --- */
+
+static size_t vector_count(const struct mpm *mpm)
+{
+    return (size_t)mpm->cells->n_blocks * STIFFNESS_VECTOR;
+}
+
+static void scatter_all(struct mpm *mpm, int32_t b)
+{
+    mpm->shape->scatter(mpm, b, true, true);
+}
+
+/* Unbalanced forces of a block's nodes, zero where the program moves none. */
+static void take_force(const struct mpm *mpm, int32_t b, double *force)
+{
+    const double *mass = grid_field(mpm->grid, b, NODE_MASS);
+    const uint8_t *fixed = mpm->grid->fixed + (size_t)b * BLOCK_CELLS;
+    for (int a = 0; a < 3; a++) {
+        const double *from = grid_field(mpm->grid, b, NODE_FORCE + a);
+        for (int n = 0; n < BLOCK_CELLS; n++)
+            force[a * BLOCK_CELLS + n] = mass[n] > mpm->grid->mass_cutoff && !(fixed[n] >> a & 1) ? from[n] : 0;
+    }
+}
+
+/* Masses and forces on the grid, and the unbalanced ones in `force`. */
+static void collect_forces(struct mpm *mpm)
+{
+    struct equilibrium *equilibrium = mpm->equilibrium;
+    const int32_t blocks = mpm->cells->n_blocks;
+    timers_enter(mpm->timers, PHASE_SCATTER);
+    mpm_each_block(mpm, scatter_all);
+    faces_scatter(mpm, NODE_FORCE - NODE_MASS);
+    timers_enter(mpm->timers, PHASE_GRID);
+    equilibrium->force = memory_grow(equilibrium->force, &equilibrium->force_capacity, vector_count(mpm), sizeof(double),
+                                     "equilibrium");
+#pragma omp parallel for schedule(static) if (blocks >= mpm->grid->shared_blocks)
+    for (int32_t b = 0; b < blocks; b++) {
+        grid_collect(mpm->grid, b, NODE_MASS, 7, 0);
+        take_force(mpm, b, equilibrium->force + (size_t)b * STIFFNESS_VECTOR);
+    }
+}
+
+/* The same, without resultants along free motions; returns the length of these. */
+static double renew_forces(struct mpm *mpm)
+{
+    struct equilibrium *equilibrium = mpm->equilibrium;
+    collect_forces(mpm);
+    double resultant = rigid_remove_force(&equilibrium->rigid, mpm, equilibrium->force);
+    equilibrium->size = vector_length(equilibrium->force, vector_count(mpm));
+    return resultant;
+}
+
+/* Length of all forces that single particles give to nodes. */
+static double particle_forces(const struct mpm *mpm)
+{
+    double sum = 0;
+    for (int32_t k = 0; k < mpm->cells->in_cells; k++) {
+        double t[3][3];
+        mpm_force_stress(mpm, (size_t)mpm->cells->order[k], t);
+        for (int i = 0; i < 9; i++)
+            sum += t[i / 3][i % 3] * t[i / 3][i % 3];
+    }
+    return sqrt(sum);
+}
+
+/* --- particles before a step --- */
+
+static void save(const struct mpm *mpm)
+{
+    const size_t bytes = (size_t)mpm->cells->count * sizeof(double);
+    for (int i = 0; i < SAVED; i++)
+        for (int a = 0; a < COLUMN_COMPONENTS && mpm->equilibrium->copy[i][a]; a++)
+            memcpy(mpm->equilibrium->copy[i][a], mpm->store->real[saved[i]][a], bytes);
+}
+
+static void find_cells(struct mpm *mpm)
+{
+    timers_enter(mpm->timers, PHASE_CELLS);
+    cell_list_update(mpm->cells, mpm->store);
+    grid_follow(mpm->grid);
+}
+
+static void restore(struct mpm *mpm)
+{
+    const size_t bytes = (size_t)mpm->cells->count * sizeof(double);
+    for (int i = 0; i < SAVED; i++)
+        for (int a = 0; a < COLUMN_COMPONENTS && mpm->equilibrium->copy[i][a]; a++)
+            memcpy(mpm->store->real[saved[i]][a], mpm->equilibrium->copy[i][a], bytes);
+    timers_enter(mpm->timers, PHASE_CELLS);
+    cell_list_build(mpm->cells, mpm->store);
+    grid_follow(mpm->grid);
+}
+
+/* --- a Newton step --- */
+
+/* Work of the particles' loads on the way that they just went. */
+static void add_work(struct mpm *mpm, int32_t b)
+{
+    const struct cell_block *block = &mpm->cells->blocks[b];
+    double work = 0;
+    for (int32_t k = block->first; k < block->first + block->count && mpm->has_external_force; k++) {
+        const int32_t p = mpm->cells->order[k];
+        double force[3];
+        mpm_external_force(mpm, (size_t)p, force);
+        for (int a = 0; a < 3; a++)
+            work += force[a] * (mpm->store->real[COLUMN_POSITION][a][p] - mpm->equilibrium->copy[0][a][p]);
+    }
+    mpm->block_sums[b].work = work;
+}
+
+/* Strains and moves the particles by `scale` times the nodes' displacements, at no speed. */
+static void move(struct mpm *mpm, double scale)
+{
+    struct equilibrium *equilibrium = mpm->equilibrium;
+    const int32_t active = mpm->cells->active;
+    for (int32_t b = 0; b < mpm->cells->n_blocks; b++)
+        for (int a = 0; a < 3; a++) {
+            const double *from = equilibrium->displacement + (size_t)b * STIFFNESS_VECTOR + (size_t)a * BLOCK_CELLS;
+            double *velocity = grid_field(mpm->grid, b, NODE_MOMENTUM + a);
+            double *straining = grid_field(mpm->grid, b, NODE_STRAINING + a);
+            for (int n = 0; n < BLOCK_CELLS; n++)
+                velocity[n] = straining[n] = scale * from[n] / mpm->time_step;
+        }
+    timers_enter(mpm->timers, PHASE_STRESS);
+    mpm_clear_sums(mpm);
+    mpm_each_block(mpm, mpm->shape->gather_strain);
+    equilibrium->work = faces_work(mpm);
+    mpm_each_block(mpm, add_work);
+    equilibrium->moved = 0;
+    mpm->sums.least_volume = DBL_MAX;
+    for (int32_t b = 0; b < active; b++) {
+        equilibrium->work += mpm->block_sums[b].work;
+        equilibrium->moved += mpm->block_sums[b].moved;
+        mpm->sums.least_volume = fmin(mpm->sums.least_volume, mpm->block_sums[b].least_volume);
+    }
+    mpm->cells->moved += equilibrium->moved;
+    find_cells(mpm);
+}
+
+/* Solves K du = force. */
+static enum conjugate_ending find_displacement(struct mpm *mpm)
+{
+    struct equilibrium *equilibrium = mpm->equilibrium;
+    const size_t count = vector_count(mpm);
+    const double start = threads_clock();
+    timers_enter(mpm->timers, PHASE_SYSTEM);
+    equilibrium->right = memory_grow(equilibrium->right, &equilibrium->right_capacity, count, sizeof(double), "equilibrium");
+    equilibrium->displacement = memory_grow(equilibrium->displacement, &equilibrium->displacement_capacity, count,
+                                            sizeof(double), "equilibrium");
+    multigrid_open(&equilibrium->multigrid, mpm, equilibrium->report.newton_steps > 0);
+    memcpy(equilibrium->right, equilibrium->force, count * sizeof(double));
+    const struct conjugate_problem problem = {&equilibrium->multigrid, multigrid_apply, multigrid_precondition, count};
+    double target = fmax(LINEAR_SHARE * equilibrium->limit, LINEAR_TOLERANCE * equilibrium->size);
+    struct conjugate_result result = conjugate_solve(&problem, &equilibrium->room, equilibrium->displacement,
+                                                     equilibrium->right, target, LINEAR_ITERATIONS);
+    rigid_remove_motion(&equilibrium->rigid, mpm, equilibrium->displacement);
+    equilibrium->report.iterations += result.iterations;
+    equilibrium->seconds += threads_clock() - start;
+    return result.ending;
+}
+
+/* How much of the step can be taken at once. */
+static double largest_scale(const struct mpm *mpm)
+{
+    const struct equilibrium *equilibrium = mpm->equilibrium;
+    double largest = 0;
+    for (int32_t b = 0; b < mpm->cells->active; b++)
+        largest = fmax(largest, stiffness_largest_gradient(mpm, &equilibrium->multigrid.level[0].stiffness,
+                                                           equilibrium->displacement, b));
+    return largest > LARGEST_GRADIENT ? LARGEST_GRADIENT / largest : 1;
+}
+
+/* Moves by the displacements found, or by less while the forces grow. Energy that a motion there would lose:
+ * the work of the unbalanced forces, whose mean is half the sum of those before and after. */
+static bool take_step(struct mpm *mpm, int *growing)
+{
+    struct equilibrium *equilibrium = mpm->equilibrium;
+    const double before = equilibrium->size;
+    const long version = mpm->cells->version;
+    const size_t count = vector_count(mpm);
+    double scale = largest_scale(mpm), lost = vector_dot(equilibrium->force, equilibrium->displacement, count);
+    save(mpm);
+    for (int halvings = 0; halvings <= HALVINGS; halvings++, scale /= 2) {
+        move(mpm, scale);
+        renew_forces(mpm);
+        bool is_sound = isfinite(equilibrium->size) && mpm->sums.least_volume > 0;
+        bool is_less = equilibrium->size < before || equilibrium->size <= equilibrium->limit;
+        bool may_grow = equilibrium->moved > 0 && *growing < GROWING_STEPS && equilibrium->size < equilibrium->reference;
+        if (is_sound && (is_less || may_grow)) {
+            *growing = is_less ? 0 : *growing + 1;
+            if (mpm->cells->version == version)
+                lost += vector_dot(equilibrium->force, equilibrium->displacement, count);
+            mpm->external_work += equilibrium->work;
+            mpm->removed_energy += 0.5 * scale * lost;
+            return true;
+        }
+        restore(mpm);
+    }
+    renew_forces(mpm);
+    return false;
+}
+
+static void say(struct equilibrium_report *report, const char *cause, const char *advice)
+{
+    snprintf(report->cause, sizeof report->cause, "%s", cause);
+    snprintf(report->advice, sizeof report->advice, "%s", advice);
+}
+
+/* Newton's method from the present state; the report tells how it ended. */
+static void search(struct mpm *mpm)
+{
+    struct equilibrium *equilibrium = mpm->equilibrium;
+    struct equilibrium_report *report = &equilibrium->report;
+    int growing = 0;
+    report->state = EQUILIBRIUM_MISSED;
+    while (equilibrium->size > equilibrium->limit) {
+        if (report->newton_steps == mpm->scene->equilibrium_steps) {
+            say(report, "the unbalanced forces fall too slowly",
+                equilibrium->moved > 0 ? "particles change cells all the time: try bbar, smaller loads or a larger tolerance of quas"
+                                       : "try more steps of quas, smaller loads, or QuLo and drda instead of quas");
+            return;
+        }
+        enum conjugate_ending ending = find_displacement(mpm);
+        report->newton_steps++;
+        equilibrium->is_singular = ending == CONJUGATE_SINGULAR;
+        if (!take_step(mpm, &growing)) {
+            say(report, "the unbalanced forces do not fall any more", "try smaller loads, or a larger tolerance of quas");
+            return;
+        }
+        if (equilibrium->is_singular && equilibrium->size > equilibrium->limit) {
+            say(report, "a force acts on something that has no stiffness",
+                "a part that hangs on a node or an edge, or a mode of cells with one particle: hold it, or take more particles a cell");
+            return;
+        }
+    }
+    report->state = EQUILIBRIUM_FOUND;
+}
+
+/* --- motion with kinetic damping --- */
+
+static void settle(struct mpm *mpm)
+{
+    struct equilibrium *equilibrium = mpm->equilibrium;
+    struct equilibrium_report *report = &equilibrium->report;
+    const long step = mpm->step;
+    const double time = mpm->time;
+    mpm->damps_kinetic = true;
+    mpm->time_step = mpm->first_time_step;
+    while (report->damped_steps < DAMPED_STEPS && report->state != EQUILIBRIUM_FOUND) {
+        mpm_step(mpm);
+        report->damped_steps++;
+        if (mpm_check(mpm).is_stopped)
+            break;
+        if (report->damped_steps % DAMPED_LOOK == 0 || mpm->sums.kinetic == 0) {
+            renew_forces(mpm);
+            if (equilibrium->size <= equilibrium->limit)
+                report->state = EQUILIBRIUM_FOUND;
+        }
+    }
+    mpm->damps_kinetic = mpm->scene->kinetic_damping;
+    mpm->step = step;
+    mpm->time = time;
+    renew_forces(mpm);
+    if (report->state != EQUILIBRIUM_FOUND)
+        say(report, "neither Newton's method nor kinetic damping leads to an equilibrium",
+            "is there one under these loads? try smaller loads, or a larger tolerance of quas");
+}
+
+/* --- the whole search --- */
+
+/* No motion, and no viscous pressure from motion. */
+static void still(struct mpm *mpm)
+{
+    static const enum column columns[] = {COLUMN_VELOCITY, COLUMN_AFFINE, COLUMN_VISCOUS_PRESSURE};
+    for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++)
+        for (int a = 0; a < COLUMN_COMPONENTS && mpm->store->real[columns[i]][a]; a++)
+            memset(mpm->store->real[columns[i]][a], 0, (size_t)mpm->cells->count * sizeof(double));
+}
+
+/* Where the largest unbalanced force is. */
+static void find_worst(const struct mpm *mpm)
+{
+    const struct equilibrium *equilibrium = mpm->equilibrium;
+    struct equilibrium_report *report = &mpm->equilibrium->report;
+    double largest = -1, nearest = DBL_MAX;
+    for (int32_t b = 0; b < mpm->cells->n_blocks; b++)
+        for (int n = 0; n < BLOCK_CELLS; n++) {
+            const double *force = equilibrium->force + (size_t)b * STIFFNESS_VECTOR + n;
+            double square = force[0] * force[0] + force[64] * force[64] + force[128] * force[128];
+            const int in_block[3] = {n % 4, n / 4 % 4, n / 16};
+            if (square <= largest)
+                continue;
+            largest = square;
+            for (int a = 0; a < 3; a++)
+                report->worst[a] = mpm->cells->frame.low[a]
+                                 + (mpm->cells->blocks[b].at[a] * BLOCK_EDGE + in_block[a]) * mpm->cells->frame.size;
+        }
+    report->particle = -1;
+    for (int32_t k = 0; k < mpm->cells->in_cells; k++) {
+        const int32_t p = mpm->cells->order[k];
+        double square = 0;
+        for (int a = 0; a < 3; a++)
+            square += pow(mpm->store->real[COLUMN_POSITION][a][p] - report->worst[a], 2);
+        if (square < nearest) {
+            nearest = square;
+            report->particle = mpm->store->integer[COLUMN_ID][p];
+        }
+    }
+}
+
+/* What is to be balanced, and how well; false when there is no balance. */
+static bool start_search(struct mpm *mpm)
+{
+    struct equilibrium *equilibrium = mpm->equilibrium;
+    struct equilibrium_report *report = &equilibrium->report;
+    const struct rigid *rigid = &equilibrium->rigid;
+    collect_forces(mpm);
+    rigid_find(&equilibrium->rigid, mpm);
+    double resultant = rigid_remove_force(rigid, mpm, equilibrium->force);
+    equilibrium->size = vector_length(equilibrium->force, vector_count(mpm));
+    equilibrium->reference = fmax(equilibrium->reference, equilibrium->size);
+    equilibrium->limit = fmax(mpm->scene->equilibrium_tolerance * equilibrium->reference, ROUND_OFF * particle_forces(mpm));
+    report->floating = rigid->n_floating;
+    report->floating_motions = rigid->motions;
+    report->floating_body = rigid->body;
+    if (resultant <= equilibrium->limit)
+        return true;
+    report->state = EQUILIBRIUM_LOADED;
+    equilibrium->size = hypot(equilibrium->size, resultant);
+    equilibrium->reference = fmax(equilibrium->reference, resultant);
+    snprintf(report->cause, sizeof report->cause, "body %d floats freely and its loads have a resultant of force or moment",
+             rigid->body + 1);
+    snprintf(report->advice, sizeof report->advice, "hold it (fixed), or let the loads balance each other");
+    return false;
+}
+
+enum equilibrium_state mpm_equilibrate(struct mpm *mpm)
+{
+    struct equilibrium *equilibrium = mpm->equilibrium;
+    const double step = mpm->time_step;
+    equilibrium->report = (struct equilibrium_report){.particle = -1};
+    equilibrium->is_singular = false;
+    mpm->step++;
+    mpm->load_factor = 1;
+    mpm->moves_last = true;
+    /* a power of two, so that displacements come back as they were, and so long that nothing has a rate */
+    mpm->time_step = ldexp(1, ilogb(mpm->first_time_step) + 80);
+    still(mpm);
+    if (start_search(mpm))
+        search(mpm);
+    mpm->moves_last = mpm->scene->scheme != SCHEME_USF;
+    mpm->time_step = step;
+    if (equilibrium->report.state == EQUILIBRIUM_MISSED && !equilibrium->is_singular)
+        settle(mpm);
+    still(mpm);
+    mpm->time_step = step;
+    smoothing_start(mpm);
+    smoothing_finish(mpm);
+    double least_volume = mpm->sums.least_volume;
+    mpm->sums = mpm_total(mpm);
+    mpm->sums.least_volume = least_volume;
+    mpm->previous_kinetic = mpm->sums.kinetic;
+    mpm->unbalanced = mpm->sums.internal + mpm->removed_energy - mpm->start_energy - mpm->external_work;
+    mpm_discard_grid(mpm);
+    timers_enter(mpm->timers, PHASE_OTHER);
+    equilibrium->report.reference = equilibrium->reference;
+    equilibrium->report.residual = equilibrium->reference > 0 ? equilibrium->size / equilibrium->reference : 0;
+    if (equilibrium->report.state != EQUILIBRIUM_FOUND)
+        find_worst(mpm);
+    return equilibrium->report.state;
+}
+
+struct instability equilibrium_check(const struct mpm *mpm)
+{
+    const struct equilibrium_report *report = &mpm->equilibrium->report;
+    struct instability result = {.particle = -1};
+    if (report->state == EQUILIBRIUM_FOUND)
+        return mpm_check(mpm);
+    result.is_stopped = true;
+    result.particle = report->particle;
+    snprintf(result.cause, sizeof result.cause, "no equilibrium found: %.140s", report->cause);
+    snprintf(result.advice, sizeof result.advice, "%s", report->advice);
+    return result;
+}
