@@ -23,6 +23,11 @@ void summary_check(const struct mpm *mpm, FILE *stream)
             mpm->scene->n_materials);
     fprintf(stream, "grid of %d x %d x %d cells of %g; %d blocks of 4 x 4 x 4 hold particles\n", frame->cells[0],
             frame->cells[1], frame->cells[2], frame->size, mpm->cells->active);
+    if (mpm->scene->finds_equilibrium) {
+        fprintf(stream, "static equilibrium to %g of the unbalanced forces, in %ld Newton steps at most\n",
+                mpm->scene->equilibrium_tolerance, mpm->scene->equilibrium_steps);
+        return;
+    }
     fprintf(stream, "first time step %.6E, about %.0f steps to the end\n", mpm->first_time_step,
             ceil(mpm->scene->end_time / mpm->first_time_step));
 }
@@ -74,6 +79,9 @@ void summary_equilibrium(const struct mpm *mpm, FILE *stream)
             report->iterations);
     if (report->damped_steps > 0)
         fprintf(stream, ", then %ld steps with kinetic damping", report->damped_steps);
+    if (report->kept_particles > 0)
+        fprintf(stream, "; %ld particles, up to %.1e cells beyond the face of a cell, still counted for it", report->kept_particles,
+                report->kept_distance);
     fprintf(stream, "\n");
     if (!is_found && report->newton_steps > 0)
         fprintf(stream, "largest unbalanced force at the node (%.6g, %.6g, %.6g)\n", report->worst[0], report->worst[1],

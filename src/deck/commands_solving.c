@@ -189,7 +189,7 @@ static void read_equilibrium(struct reader *reader, const struct deck_word *word
     struct value value[2];
     scene->finds_equilibrium = true;
     scene->equilibrium_tolerance = values[0].real;
-    scene->equilibrium_steps = 20;
+    scene->equilibrium_steps = 50;
     reader->equilibrium_place = word->place;
     if (!reader_at_line_end(reader) && reader_values(reader, steps, "quas", value))
         scene->equilibrium_steps = value[0].integer;
@@ -249,7 +249,7 @@ const struct keyword solving_keywords[] = {
     {.name = "quas", .long_name = "quasistatic",
      .arguments = (const struct argument[]){{"tol", NULL, ARGUMENT_REAL, LIMIT_POSITIVE}, {0}}, .apply = read_equilibrium,
      .doc = "no time steps: the static equilibrium is found directly, with unbalanced forces of tol times those at the start "
-            "(1e-6 is a good one); at most maxit Newton steps (`quas tol maxit`, 20), then kinetic damping. endt is not "
+            "(1e-6 is a good one); at most maxit Newton steps (`quas tol maxit`, 50), then kinetic damping. endt is not "
             "looked at; each equilibrium counts 1 in time and is written"},
     {.name = "xfer", .long_name = "transfer",
      .arguments = (const struct argument[]){{"flip|pic|apic|blend", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}},
@@ -321,6 +321,8 @@ static void check_equilibrium(struct reader *reader)
     if (scene->interpolation != INTERPOLATION_LINEAR)
         diagnostics_error(reader->diagnostics, place, "'quas' does not go with '%s'; only with linear shapes, with or without bbar",
                           shapes[scene->interpolation]);
+    if (scene->loading_time > 0)
+        diagnostics_error(reader->diagnostics, place, "'quas' does not go with 'QuLo': loads act in full");
     if (scene->n_velocities > 0)
         diagnostics_error(reader->diagnostics, place, "'quas' does not go with 'velo': nothing moves on its own");
     for (size_t i = 0; i < scene->n_materials; i++)

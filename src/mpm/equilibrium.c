@@ -3,6 +3,7 @@
 #include "base/conjugate.h"
 #include "base/memory.h"
 #include "base/vector.h"
+#include "mpm/chunk.h"
 #include "mpm/multigrid.h"
 #include "mpm/rigid.h"
 
@@ -17,15 +18,17 @@ static const double LINEAR_TOLERANCE = 1e-4, LINEAR_SHARE = 0.3;
 static const double LARGEST_GRADIENT = 0.1;
 /* Forces below this part of those of single particles are their round-off. */
 static const double ROUND_OFF = 1e-14;
-/* Iterations of a linear system; halvings of a step whose forces grow; steps in a row that may let them grow
- * while particles change cells; time steps with kinetic damping, and of these between two looks at the forces. */
-enum { LINEAR_ITERATIONS = 1000, HALVINGS = 4, GROWING_STEPS = 3, DAMPED_STEPS = 50000, DAMPED_LOOK = 20 };
+/* Motion with kinetic damping takes this part of the stable step at most: nodes of small mass want less than dtsc's 0.9. */
+static const double DAMPED_SCALE = 0.5;
+/* Iterations of a linear system; halvings of a step whose forces grow; whole steps in which particles may
+ * change cells, which lets forces jump; time steps with kinetic damping, and of these between two looks at the forces. */
+enum { LINEAR_ITERATIONS = 1000, HALVINGS = 4, CROSSING_STEPS = 4, DAMPED_STEPS = 50000, DAMPED_LOOK = 20 };
 
 /* What a step changes in the particles. */
 static const enum column saved[] = {COLUMN_POSITION, COLUMN_STRESS, COLUMN_VOLUME, COLUMN_ENERGY, COLUMN_VISCOUS_PRESSURE,
                                     COLUMN_PLASTIC_STRAIN, COLUMN_YIELD_STRESS, COLUMN_MEAN_STRESS, COLUMN_EQUIVALENT_STRESS,
                                     COLUMN_TEMPERATURE, COLUMN_DAMAGE, COLUMN_FAILED, COLUMN_DEFORMATION};
-enum { SAVED = sizeof saved / sizeof saved[0] };
+enum { SAVED = sizeof saved / sizeof saved[0], SAVED_STRESS = 1 };
 
 struct equilibrium {
     struct multigrid multigrid;
@@ -34,11 +37,14 @@ struct equilibrium {
     double *force, *right, *displacement; /* vectors on the nodes: [block][3][64] */
     size_t force_capacity, right_capacity, displacement_capacity;
     double *copy[SAVED][COLUMN_COMPONENTS]; /* the particles before a step */
+    double *deviator[6], *softening; /* with laws that are not elastic: strains of a step; what is left of the shear modulus */
     double reference;
     double limit;    /* the search ends where the forces' length is not above */
     double size;     /* present length of the unbalanced forces */
     double work;     /* of external forces in the step just tried */
     double moved;    /* particles that changed cell in it */
+    bool can_soften;  /* some law is not elastic */
+    bool is_soft;     /* the next step takes the softened stiffness */
     bool is_singular; /* a linear system of the search had no solution */
     double seconds;
     struct equilibrium_report report;
@@ -52,6 +58,14 @@ struct equilibrium *equilibrium_open(const struct mpm *mpm)
     for (int i = 0; i < SAVED; i++)
         for (int a = 0; a < COLUMN_COMPONENTS && mpm->store->real[saved[i]][a]; a++)
             equilibrium->copy[i][a] = memory_array(mpm->store->count, sizeof(double), "equilibrium");
+    for (size_t i = 0; i < mpm->scene->n_materials; i++) {
+        const struct law *law = mpm->scene->materials[i].material.law;
+        equilibrium->can_soften = equilibrium->can_soften || (law != &law_elas && law != &law_neoh);
+    }
+    for (int i = 0; i < 6 && equilibrium->can_soften; i++)
+        equilibrium->deviator[i] = memory_array(mpm->store->count, sizeof(double), "equilibrium");
+    if (equilibrium->can_soften)
+        equilibrium->softening = memory_array(mpm->store->count, sizeof(double), "equilibrium");
     return equilibrium;
 }
 
@@ -68,6 +82,9 @@ void equilibrium_close(struct equilibrium *equilibrium)
     for (int i = 0; i < SAVED; i++)
         for (int a = 0; a < COLUMN_COMPONENTS; a++)
             memory_free(equilibrium->copy[i][a]);
+    for (int i = 0; i < 6; i++)
+        memory_free(equilibrium->deviator[i]);
+    memory_free(equilibrium->softening);
     memory_free(equilibrium);
 }
 
@@ -94,20 +111,23 @@ static void scatter_all(struct mpm *mpm, int32_t b)
     mpm->shape->scatter(mpm, b, true, true);
 }
 
-/* Unbalanced forces of a block's nodes, zero where the program moves none. */
-static void take_force(const struct mpm *mpm, int32_t b, double *force)
+/* Unbalanced forces of a block's nodes with `least_mass`; no less than none takes those whose mass is round-off too:
+ * static forces don't depend on it, and where a node is left out the particles around it feel it held. */
+static void take_force(const struct mpm *mpm, int32_t b, double least_mass, double *force)
 {
     const double *mass = grid_field(mpm->grid, b, NODE_MASS);
-    const uint8_t *fixed = mpm->grid->fixed + (size_t)b * BLOCK_CELLS;
+    const size_t first = (size_t)b * BLOCK_CELLS;
     for (int a = 0; a < 3; a++) {
         const double *from = grid_field(mpm->grid, b, NODE_FORCE + a);
-        for (int n = 0; n < BLOCK_CELLS; n++)
-            force[a * BLOCK_CELLS + n] = mass[n] > mpm->grid->mass_cutoff && !(fixed[n] >> a & 1) ? from[n] : 0;
+        for (int n = 0; n < BLOCK_CELLS; n++) {
+            bool is_part = mpm->equilibrium->rigid.part_of_node[first + (size_t)n] >= 0 && mass[n] >= least_mass;
+            force[a * BLOCK_CELLS + n] = is_part && !(mpm->grid->fixed[first + (size_t)n] >> a & 1) ? from[n] : 0;
+        }
     }
 }
 
-/* Masses and forces on the grid, and the unbalanced ones in `force`. */
-static void collect_forces(struct mpm *mpm)
+/* Finds the unbalanced forces and their length, without resultants along free motions; returns the length of these. */
+static double renew_forces(struct mpm *mpm, double least_mass)
 {
     struct equilibrium *equilibrium = mpm->equilibrium;
     const int32_t blocks = mpm->cells->n_blocks;
@@ -118,17 +138,11 @@ static void collect_forces(struct mpm *mpm)
     equilibrium->force = memory_grow(equilibrium->force, &equilibrium->force_capacity, vector_count(mpm), sizeof(double),
                                      "equilibrium");
 #pragma omp parallel for schedule(static) if (blocks >= mpm->grid->shared_blocks)
-    for (int32_t b = 0; b < blocks; b++) {
+    for (int32_t b = 0; b < blocks; b++)
         grid_collect(mpm->grid, b, NODE_MASS, 7, 0);
-        take_force(mpm, b, equilibrium->force + (size_t)b * STIFFNESS_VECTOR);
-    }
-}
-
-/* The same, without resultants along free motions; returns the length of these. */
-static double renew_forces(struct mpm *mpm)
-{
-    struct equilibrium *equilibrium = mpm->equilibrium;
-    collect_forces(mpm);
+    rigid_find(&equilibrium->rigid, mpm);
+    for (int32_t b = 0; b < blocks; b++)
+        take_force(mpm, b, least_mass, equilibrium->force + (size_t)b * STIFFNESS_VECTOR);
     double resultant = rigid_remove_force(&equilibrium->rigid, mpm, equilibrium->force);
     equilibrium->size = vector_length(equilibrium->force, vector_count(mpm));
     return resultant;
@@ -159,6 +173,8 @@ static void save(const struct mpm *mpm)
 
 static void find_cells(struct mpm *mpm)
 {
+    if (mpm->keeps_cells)
+        return;
     timers_enter(mpm->timers, PHASE_CELLS);
     cell_list_update(mpm->cells, mpm->store);
     grid_follow(mpm->grid);
@@ -231,7 +247,8 @@ static enum conjugate_ending find_displacement(struct mpm *mpm)
     equilibrium->right = memory_grow(equilibrium->right, &equilibrium->right_capacity, count, sizeof(double), "equilibrium");
     equilibrium->displacement = memory_grow(equilibrium->displacement, &equilibrium->displacement_capacity, count,
                                             sizeof(double), "equilibrium");
-    multigrid_open(&equilibrium->multigrid, mpm, equilibrium->report.newton_steps > 0);
+    multigrid_open(&equilibrium->multigrid, mpm, equilibrium->is_soft ? equilibrium->softening : NULL,
+                   equilibrium->report.newton_steps > 0);
     memcpy(equilibrium->right, equilibrium->force, count * sizeof(double));
     const struct conjugate_problem problem = {&equilibrium->multigrid, multigrid_apply, multigrid_precondition, count};
     double target = fmax(LINEAR_SHARE * equilibrium->limit, LINEAR_TOLERANCE * equilibrium->size);
@@ -249,14 +266,36 @@ static double largest_scale(const struct mpm *mpm)
     const struct equilibrium *equilibrium = mpm->equilibrium;
     double largest = 0;
     for (int32_t b = 0; b < mpm->cells->active; b++)
-        largest = fmax(largest, stiffness_largest_gradient(mpm, &equilibrium->multigrid.level[0].stiffness,
-                                                           equilibrium->displacement, b));
+        largest = fmax(largest, stiffness_strains(mpm, &equilibrium->multigrid.level[0].stiffness, equilibrium->displacement,
+                                                  b, equilibrium->can_soften ? equilibrium->deviator : NULL));
     return largest > LARGEST_GRADIENT ? LARGEST_GRADIENT / largest : 1;
+}
+
+/* What the law made of each particle's deviatoric strain, of what an elastic one would have: the next step goes on with
+ * that part of the shear modulus. */
+static void find_softening(struct mpm *mpm, double scale)
+{
+    static const double LEAST = 0.003, LEAST_STRAIN = 1e-12;
+    struct equilibrium *equilibrium = mpm->equilibrium;
+    for (int32_t k = 0; k < mpm->cells->in_cells && equilibrium->can_soften; k++) {
+        const int32_t p = mpm->cells->order[k];
+        const double shear = mpm->material_of_body[mpm->store->integer[COLUMN_BODY][p]]->shear_modulus;
+        double answer = 0, square = 0;
+        for (int i = 0; i < 6; i++) {
+            const double strain = scale * equilibrium->deviator[i][p], count = i < 3 ? 1 : 2;
+            answer += count * strain * (mpm->store->real[COLUMN_STRESS][i][p] - equilibrium->copy[SAVED_STRESS][i][p]);
+            square += count * strain * strain;
+        }
+        if (square > LEAST_STRAIN * LEAST_STRAIN)
+            equilibrium->softening[p] = fmin(1, fmax(LEAST, answer / (2 * shear * square)));
+        else if (equilibrium->report.newton_steps == 1)
+            equilibrium->softening[p] = 1;
+    }
 }
 
 /* Moves by the displacements found, or by less while the forces grow. Energy that a motion there would lose:
  * the work of the unbalanced forces, whose mean is half the sum of those before and after. */
-static bool take_step(struct mpm *mpm, int *growing)
+static bool take_step(struct mpm *mpm, int *crossing)
 {
     struct equilibrium *equilibrium = mpm->equilibrium;
     const double before = equilibrium->size;
@@ -266,21 +305,23 @@ static bool take_step(struct mpm *mpm, int *growing)
     save(mpm);
     for (int halvings = 0; halvings <= HALVINGS; halvings++, scale /= 2) {
         move(mpm, scale);
-        renew_forces(mpm);
+        renew_forces(mpm, 0);
         bool is_sound = isfinite(equilibrium->size) && mpm->sums.least_volume > 0;
-        bool is_less = equilibrium->size < before || equilibrium->size <= equilibrium->limit;
-        bool may_grow = equilibrium->moved > 0 && *growing < GROWING_STEPS && equilibrium->size < equilibrium->reference;
+        double left = mpm->cells->version == version ? vector_dot(equilibrium->force, equilibrium->displacement, count) : 0;
+        bool is_less = equilibrium->size < before || equilibrium->size <= equilibrium->limit
+                    || (mpm->cells->version == version && fabs(left) < 0.8 * lost && equilibrium->size < 10 * equilibrium->reference);
+        bool may_grow = equilibrium->moved > 0 && equilibrium->size < equilibrium->reference;
         if (is_sound && (is_less || may_grow)) {
-            *growing = is_less ? 0 : *growing + 1;
-            if (mpm->cells->version == version)
-                lost += vector_dot(equilibrium->force, equilibrium->displacement, count);
+            *crossing += equilibrium->moved > 0 && scale == 1;
+            find_softening(mpm, scale);
+            equilibrium->is_soft = equilibrium->can_soften;
             mpm->external_work += equilibrium->work;
-            mpm->removed_energy += 0.5 * scale * lost;
+            mpm->removed_energy += 0.5 * scale * (lost + left);
             return true;
         }
         restore(mpm);
     }
-    renew_forces(mpm);
+    renew_forces(mpm, 0);
     return false;
 }
 
@@ -290,12 +331,39 @@ static void say(struct equilibrium_report *report, const char *cause, const char
     snprintf(report->advice, sizeof report->advice, "%s", advice);
 }
 
+/* Finds the cells anew of particles that were kept in theirs. */
+static void release_cells(struct mpm *mpm)
+{
+    struct equilibrium_report *report = &mpm->equilibrium->report;
+    const double size = mpm->cells->frame.size;
+    if (!mpm->keeps_cells)
+        return;
+    for (int32_t b = 0; b < mpm->cells->active; b++) {
+        const struct cell_block *block = &mpm->cells->blocks[b];
+        const struct chunk chunk = {.block = block};
+        for (int32_t k = block->first; k < block->first + block->count; k++) {
+            const int32_t p = mpm->cells->order[k];
+            double most = 0;
+            for (int a = 0; a < 3; a++) {
+                double local = (mpm->store->real[COLUMN_POSITION][a][p] - chunk_cell_low(mpm, &chunk, mpm->cells->cell[p], a)) / size;
+                most = fmax(most, fmax(-local, local - 1));
+            }
+            report->kept_particles += most > 0;
+            report->kept_distance = fmax(report->kept_distance, most);
+        }
+    }
+    mpm->keeps_cells = false;
+    timers_enter(mpm->timers, PHASE_CELLS);
+    cell_list_build(mpm->cells, mpm->store);
+    grid_follow(mpm->grid);
+}
+
 /* Newton's method from the present state; the report tells how it ended. */
 static void search(struct mpm *mpm)
 {
     struct equilibrium *equilibrium = mpm->equilibrium;
     struct equilibrium_report *report = &equilibrium->report;
-    int growing = 0;
+    int crossing = 0;
     report->state = EQUILIBRIUM_MISSED;
     while (equilibrium->size > equilibrium->limit) {
         if (report->newton_steps == mpm->scene->equilibrium_steps) {
@@ -306,8 +374,13 @@ static void search(struct mpm *mpm)
         }
         enum conjugate_ending ending = find_displacement(mpm);
         report->newton_steps++;
+        mpm->keeps_cells = crossing == CROSSING_STEPS;
         equilibrium->is_singular = ending == CONJUGATE_SINGULAR;
-        if (!take_step(mpm, &growing)) {
+        if (!take_step(mpm, &crossing)) {
+            if (equilibrium->is_soft) { /* an elastic stiffness goes less far, and in a safe direction */
+                equilibrium->is_soft = false;
+                continue;
+            }
             say(report, "the unbalanced forces do not fall any more", "try smaller loads, or a larger tolerance of quas");
             return;
         }
@@ -329,22 +402,24 @@ static void settle(struct mpm *mpm)
     const long step = mpm->step;
     const double time = mpm->time;
     mpm->damps_kinetic = true;
-    mpm->time_step = mpm->first_time_step;
+    mpm->step_scale = fmin(mpm->scene->step_scale, DAMPED_SCALE);
+    mpm->time_step = mpm->first_time_step * mpm->step_scale / mpm->scene->step_scale;
     while (report->damped_steps < DAMPED_STEPS && report->state != EQUILIBRIUM_FOUND) {
         mpm_step(mpm);
         report->damped_steps++;
         if (mpm_check(mpm).is_stopped)
             break;
         if (report->damped_steps % DAMPED_LOOK == 0 || mpm->sums.kinetic == 0) {
-            renew_forces(mpm);
+            renew_forces(mpm, mpm->grid->mass_cutoff);
             if (equilibrium->size <= equilibrium->limit)
                 report->state = EQUILIBRIUM_FOUND;
         }
     }
     mpm->damps_kinetic = mpm->scene->kinetic_damping;
+    mpm->step_scale = mpm->scene->step_scale;
     mpm->step = step;
     mpm->time = time;
-    renew_forces(mpm);
+    renew_forces(mpm, mpm->grid->mass_cutoff);
     if (report->state != EQUILIBRIUM_FOUND)
         say(report, "neither Newton's method nor kinetic damping leads to an equilibrium",
             "is there one under these loads? try smaller loads, or a larger tolerance of quas");
@@ -398,10 +473,7 @@ static bool start_search(struct mpm *mpm)
     struct equilibrium *equilibrium = mpm->equilibrium;
     struct equilibrium_report *report = &equilibrium->report;
     const struct rigid *rigid = &equilibrium->rigid;
-    collect_forces(mpm);
-    rigid_find(&equilibrium->rigid, mpm);
-    double resultant = rigid_remove_force(rigid, mpm, equilibrium->force);
-    equilibrium->size = vector_length(equilibrium->force, vector_count(mpm));
+    double resultant = renew_forces(mpm, 0);
     equilibrium->reference = fmax(equilibrium->reference, equilibrium->size);
     equilibrium->limit = fmax(mpm->scene->equilibrium_tolerance * equilibrium->reference, ROUND_OFF * particle_forces(mpm));
     report->floating = rigid->n_floating;
@@ -423,7 +495,7 @@ enum equilibrium_state mpm_equilibrate(struct mpm *mpm)
     struct equilibrium *equilibrium = mpm->equilibrium;
     const double step = mpm->time_step;
     equilibrium->report = (struct equilibrium_report){.particle = -1};
-    equilibrium->is_singular = false;
+    equilibrium->is_singular = equilibrium->is_soft = false;
     mpm->step++;
     mpm->load_factor = 1;
     mpm->moves_last = true;
@@ -434,6 +506,7 @@ enum equilibrium_state mpm_equilibrate(struct mpm *mpm)
         search(mpm);
     mpm->moves_last = mpm->scene->scheme != SCHEME_USF;
     mpm->time_step = step;
+    release_cells(mpm);
     if (equilibrium->report.state == EQUILIBRIUM_MISSED && !equilibrium->is_singular)
         settle(mpm);
     still(mpm);

@@ -22,6 +22,8 @@ struct equilibrium_report {
     long newton_steps;
     long iterations;      /* of conjugate gradients */
     long damped_steps;    /* time steps with kinetic damping */
+    long kept_particles;  /* that were kept in cells which they had left, as forces jump there, */
+    double kept_distance; /* and how far they were out at most, in cells */
     long floating;        /* connected parts that float freely, */
     int floating_motions; /* free motions of the first of them, */
     int32_t floating_body; /* and a body of it */

@@ -76,7 +76,9 @@ struct mpm {
     bool shares_always;      /* threads share the work however little there is: a number was asked for */
     bool strains_at_once;    /* usl: the velocity pass strains and moves the particles too */
     bool moves_last;         /* particles move where they are strained: in all schemes but usf */
+    bool keeps_cells;        /* particles that move stay in their cells' lists, weights go on linearly */
     bool damps_kinetic;      /* velocities go to zero whenever the kinetic energy falls */
+    double step_scale;       /* of the scene, or less */
     bool smooths;            /* the next step computes the smoothed pressure */
     bool has_external_force; /* loads, gravity or damping */
     bool has_one_law;        /* all bodies share one material */

@@ -90,9 +90,9 @@ static void list_blocks(struct stiffness *coarse, const struct stiffness *fine)
 {
     coarse->layout = fine->layout;
     coarse->size = 2 * fine->size;
-    coarse->sets = fine->sets;
-    coarse->lame = fine->lame, coarse->shear = fine->shear, coarse->bulk = fine->bulk;
-    coarse->averages_volume = fine->averages_volume;
+    coarse->sets = fine->averages_volume ? 3 : fine->sets;
+    coarse->lame = coarse->sets == 1 ? fine->lame : 1;
+    coarse->shear = coarse->sets == 1 ? fine->shear : 1;
     coarse->blocks = memory_grow(coarse->blocks, &coarse->blocks_capacity, 8 * (size_t)fine->active,
                                  sizeof *coarse->blocks, "levels of the stiffness");
     int32_t count = 0;
@@ -133,13 +133,13 @@ static void link_levels(struct multigrid_level *coarse, struct multigrid_level *
 
 /* --- moments of a coarser level --- */
 
-/* Adds the moments of a cell, m(a, b, c) = from[(a + 3 b + 9 c) * 4], to those of a cell twice as large that it
+/* Adds `factor` times the moments of a cell, m(a, b, c) = from[(a + 3 b + 9 c) * 4], to those of a cell twice as large that it
  * is the part `side` of: coordinates there are x / 2 -+ 1/4. */
-static void add_moments(const double *from, const int side[3], double *to)
+static void add_moments(const double *from, double factor, const int side[3], double *to)
 {
     double m[STIFFNESS_MOMENTS];
     for (int i = 0; i < STIFFNESS_MOMENTS; i++)
-        m[i] = 0.25 * from[i * BLOCK_EDGE];
+        m[i] = 0.25 * factor * from[i * BLOCK_EDGE];
     for (int axis = 0, stride = 1; axis < 3; axis++, stride *= 3) {
         const double middle = side[axis] ? 0.25 : -0.25;
         for (int i = 0; i < STIFFNESS_MOMENTS; i++)
@@ -153,33 +153,50 @@ static void add_moments(const double *from, const int side[3], double *to)
         to[i * BLOCK_EDGE] += m[i];
 }
 
+/* With bbar the bulk modulus of a cell acts on the mean volume change of its particles: on a coarser level, where
+ * gradients vary from cell to cell, on that at their centre. Adds such a point to the moments. */
+static void add_centre(const double *volume, double bulk, const int side[3], double *to)
+{
+    double powers[3][3];
+    for (int axis = 0, stride = 1; axis < 3; axis++, stride *= 3) {
+        double middle = volume[stride * BLOCK_EDGE] / volume[0], x = 0.5 * middle + (side[axis] ? 0.25 : -0.25);
+        powers[axis][0] = 1, powers[axis][1] = x, powers[axis][2] = x * x;
+    }
+    for (int i = 0; i < STIFFNESS_MOMENTS; i++)
+        to[i * BLOCK_EDGE] += 0.25 * volume[0] * bulk * powers[0][i % 3] * powers[1][i / 3 % 3] * powers[2][i / 9];
+}
+
+/* Adds what cell c of a child has to the moments of its parent's cell: to the same sets, or to more of them where
+ * the finer level has one material and the coarser one needs the bulk modulus apart. */
+static void add_cell(const struct stiffness *fine, int32_t child, int c, const int side[3], int sets, double *to)
+{
+    const double *from = fine->moments + (size_t)child * (size_t)fine->sets * STIFFNESS_SET + stiffness_cell(c);
+    if (!(from[0] > 0))
+        return;
+    for (int s = 0; s < sets; s++) {
+        const double *set = from + (fine->sets > 1 ? s * STIFFNESS_SET : 0);
+        const double factor = s == 0 || fine->sets > 1 ? 1 : s == 1 ? fine->lame : fine->shear;
+        add_moments(set, factor, side, to + s * STIFFNESS_SET);
+    }
+    if (fine->averages_volume)
+        add_centre(from, fine->cell_bulk ? fine->cell_bulk[(size_t)child * BLOCK_CELLS + (size_t)c] : fine->bulk, side,
+                   to + STIFFNESS_SET);
+}
+
 /* Moments of coarse block b from its children. */
 static void coarsen_block(struct multigrid_level *coarse, const struct multigrid_level *fine, int32_t b)
 {
-    const size_t set = STIFFNESS_SET, sets = (size_t)coarse->stiffness.sets;
-    double *to = coarse->stiffness.moments + (size_t)b * sets * set, *bulk = coarse->stiffness.cell_bulk;
-    memset(to, 0, sets * set * sizeof *to);
-    for (int c = 0; c < BLOCK_CELLS && bulk; c++)
-        bulk[(size_t)b * BLOCK_CELLS + (size_t)c] = 0;
+    const int sets = coarse->stiffness.sets;
+    double *to = coarse->stiffness.moments + (size_t)b * (size_t)sets * STIFFNESS_SET;
+    memset(to, 0, (size_t)sets * STIFFNESS_SET * sizeof *to);
     for (int i = 0; i < 8; i++) {
         const int32_t child = coarse->child[b][i];
-        if (child < 0 || child >= fine->stiffness.active)
-            continue;
-        const double *from = fine->stiffness.moments + (size_t)child * sets * set;
-        for (int c = 0; c < BLOCK_CELLS; c++) {
+        for (int c = 0; c < BLOCK_CELLS && child >= 0 && child < fine->stiffness.active; c++) {
             const int at[3] = {c % 4 + 4 * (i & 1), c / 4 % 4 + 4 * (i >> 1 & 1), c / 16 + 4 * (i >> 2)};
             const int side[3] = {at[0] % 2, at[1] % 2, at[2] % 2}, cell = at[0] / 2 + 4 * (at[1] / 2) + 16 * (at[2] / 2);
-            if (!(from[stiffness_cell(c)] > 0))
-                continue;
-            for (size_t s = 0; s < sets; s++)
-                add_moments(from + s * set + stiffness_cell(c), side, to + s * set + stiffness_cell(cell));
-            if (bulk)
-                bulk[(size_t)b * BLOCK_CELLS + (size_t)cell] +=
-                    0.25 * from[stiffness_cell(c)] * fine->stiffness.cell_bulk[(size_t)child * BLOCK_CELLS + (size_t)c];
+            add_cell(&fine->stiffness, child, c, side, sets, to + stiffness_cell(cell));
         }
     }
-    for (int c = 0; c < BLOCK_CELLS && bulk; c++)
-        bulk[(size_t)b * BLOCK_CELLS + (size_t)c] /= to[stiffness_cell(c)] > 0 ? to[stiffness_cell(c)] : 1;
 }
 
 /* --- between levels --- */
@@ -439,24 +456,22 @@ static void solve_coarsest(struct multigrid *multigrid, const struct multigrid_l
 
 /* --- all levels --- */
 
-/* Free nodes of the finest level. */
+/* Free and held nodes of the finest level. */
 static void find_free(struct stiffness *stiffness, const struct grid *grid)
 {
-    for (int32_t b = 0; b < stiffness->n_blocks; b++) {
-        const double *mass = grid_field(grid, b, NODE_MASS);
+    for (int32_t b = 0; b < stiffness->n_blocks; b++)
         for (int n = 0; n < BLOCK_CELLS; n++) {
             uint8_t fixed = grid->fixed[(size_t)b * BLOCK_CELLS + (size_t)n] & 7;
-            stiffness->blocks[b].fixed[n] = mass[n] > 0 ? fixed : 0;
-            stiffness->blocks[b].free[n] = mass[n] > grid->mass_cutoff ? 7 & (uint8_t)~fixed : 0;
+            stiffness->blocks[b].fixed[n] = fixed;
+            stiffness->blocks[b].free[n] = 7 & (uint8_t)~fixed;
         }
-    }
 }
 
-void multigrid_open(struct multigrid *multigrid, const struct mpm *mpm, bool keeps_bounds)
+void multigrid_open(struct multigrid *multigrid, const struct mpm *mpm, const double *softening, bool keeps_bounds)
 {
     struct multigrid_level *level = multigrid->level;
     int l = 0;
-    stiffness_of_particles(&level[0].stiffness, mpm);
+    stiffness_of_particles(&level[0].stiffness, mpm, softening);
     make_vectors(&level[0], false);
     find_free(&level[0].stiffness, mpm->grid);
     stiffness_diagonal(&level[0].stiffness);

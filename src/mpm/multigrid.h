@@ -34,10 +34,10 @@ struct multigrid {
 
 void multigrid_close(struct multigrid *multigrid);
 
-/* Takes the particles of the run and makes all levels; bounds of eigenvalues are those of the last time where
- * `keeps_bounds` says that the particles have hardly moved since. Nodes are free whose mass is above the grid's
- * cutoff (their masses are on the grid) and in directions that no boundary holds. */
-void multigrid_open(struct multigrid *multigrid, const struct mpm *mpm, bool keeps_bounds);
+/* Takes the particles of the run (`softening` as in stiffness.h) and makes all levels; bounds of eigenvalues are those of the last time where
+ * `keeps_bounds` says that the particles have hardly moved since. A node with
+ * stiffness is free in the directions that no boundary holds. */
+void multigrid_open(struct multigrid *multigrid, const struct mpm *mpm, const double *softening, bool keeps_bounds);
 
 /* Numbers in a vector of the finest level. */
 size_t multigrid_count(const struct multigrid *multigrid);

@@ -327,6 +327,7 @@ struct mpm *mpm_open(struct scene *scene, struct timers *timers, struct diagnost
     mpm->place = scene->is_total ? COLUMN_INITIAL_POSITION : COLUMN_POSITION;
     mpm->straining_field = scene->scheme == SCHEME_USL ? NODE_MOMENTUM : NODE_STRAINING;
     mpm->strains_at_once = scene->scheme == SCHEME_USL && scene->transfer == TRANSFER_FLIP && mpm->shape == &shape_linear;
+    mpm->step_scale = scene->step_scale;
     mpm->moves_last = scene->scheme != SCHEME_USF;
     mpm->damps_kinetic = scene->kinetic_damping;
     mpm->rotate = rotations[scene->rotation];

@@ -140,7 +140,7 @@ static bool visit_node(const struct rigid *rigid, const struct mpm *mpm, int32_t
     place_of(mpm, node, visit->way);
     for (int a = 0; a < 3; a++)
         visit->way[a] -= visit->part->centre[a];
-    return visit->mass > mpm->grid->mass_cutoff;
+    return true;
 }
 
 /* Masses, centres and radii. */

@@ -11,7 +11,7 @@
 struct rigid_part;
 
 struct rigid {
-    int32_t *part_of_node; /* [block][64], -1 where there is no particle around */
+    int32_t *part_of_node; /* [block][64], -1 where no cell around has particles */
     struct rigid_part *parts;
     int32_t n_parts, n_floating; /* connected sets, and those of them with free motions */
     int motions;                 /* free motions of the first that floats */

@@ -72,13 +72,13 @@ static void put_moments(const lanes sum[9], double *moments)
 }
 
 /* Lame's first parameter that acts point by point; with bbar without the bulk modulus. */
-static double lame_of(const struct stiffness *stiffness, const struct material *material)
+static double lame_of(const struct stiffness *stiffness, double bulk, double shear)
 {
-    return (stiffness->averages_volume ? 0 : material->bulk_modulus) - 2 * material->shear_modulus / 3;
+    return (stiffness->averages_volume ? 0 : bulk) - 2 * shear / 3;
 }
 
 THREADS_VECTORISED
-static void block_moments(struct stiffness *stiffness, const struct mpm *mpm, int32_t b)
+static void block_moments(struct stiffness *stiffness, const struct mpm *mpm, const double *softening, int32_t b)
 {
     const struct cell_block *block = &mpm->cells->blocks[b];
     const struct store *store = mpm->store;
@@ -99,8 +99,9 @@ static void block_moments(struct stiffness *stiffness, const struct mpm *mpm, in
             if (stiffness->sets == 1)
                 continue;
             const struct material *material = mpm->material_of_body[store->integer[COLUMN_BODY][p]];
-            add_powers(sum[1], local, weight * lame_of(stiffness, material));
-            add_powers(sum[2], local, weight * material->shear_modulus);
+            const double shear = material->shear_modulus * (softening ? softening[p] : 1);
+            add_powers(sum[1], local, weight * lame_of(stiffness, material->bulk_modulus, shear));
+            add_powers(sum[2], local, weight * shear);
             bulk += weight * material->bulk_modulus;
         }
         for (int set = 0; set < stiffness->sets; set++)
@@ -110,17 +111,17 @@ static void block_moments(struct stiffness *stiffness, const struct mpm *mpm, in
     }
 }
 
-void stiffness_of_particles(struct stiffness *stiffness, const struct mpm *mpm)
+void stiffness_of_particles(struct stiffness *stiffness, const struct mpm *mpm, const double *softening)
 {
     const struct cell_list *cells = mpm->cells;
     const struct material *material = mpm->material_of_body[0];
     stiffness->layout = &mpm->grid->layout;
     stiffness->size = cells->frame.size;
     stiffness->averages_volume = mpm->scene->averages_volume;
-    stiffness->sets = mpm->has_one_law ? 1 : 3;
-    stiffness->lame = mpm->has_one_law ? lame_of(stiffness, material) : 1;
-    stiffness->shear = mpm->has_one_law ? material->shear_modulus : 1;
-    stiffness->bulk = mpm->has_one_law ? material->bulk_modulus : 1;
+    stiffness->sets = mpm->has_one_law && !softening ? 1 : 3;
+    stiffness->lame = stiffness->sets == 1 ? lame_of(stiffness, material->bulk_modulus, material->shear_modulus) : 1;
+    stiffness->shear = stiffness->sets == 1 ? material->shear_modulus : 1;
+    stiffness->bulk = material->bulk_modulus;
     stiffness_open(stiffness, cells->n_blocks, cells->active);
     for (int32_t b = 0; b < cells->n_blocks; b++) {
         memcpy(stiffness->blocks[b].at, cells->blocks[b].at, sizeof cells->blocks[b].at);
@@ -128,7 +129,7 @@ void stiffness_of_particles(struct stiffness *stiffness, const struct mpm *mpm)
     }
 #pragma omp parallel for schedule(dynamic, 1) if (cells->active >= STIFFNESS_SHARED)
     for (int32_t b = 0; b < cells->active; b++)
-        block_moments(stiffness, mpm, b);
+        block_moments(stiffness, mpm, softening, b);
     stiffness_find_rows(stiffness);
 }
 
@@ -479,7 +480,7 @@ static void invert_block(struct stiffness *stiffness, int32_t b)
         for (int i = 0; i < 6; i++)
             k[i] = sum[i * BLOCK_CELLS + n];
         if (!(k[0] + k[1] + k[2] > 0))
-            block->free[n] = 0;
+            block->free[n] = block->fixed[n] = 0;
         if (block->free[n])
             invert_node(k, &block->free[n], result);
         for (int i = 0; i < 6; i++)
@@ -513,7 +514,19 @@ void stiffness_jacobi(const struct stiffness *stiffness, int32_t b, const double
 
 /* --- gradients at the particles --- */
 
-double stiffness_largest_gradient(const struct mpm *mpm, const struct stiffness *stiffness, const double *x, int32_t b)
+/* Gradient g[component][axis] at a place of the cell in `lane` of a row. */
+THREADS_INLINE void gradient_at(lanes u[3][8], int lane, const double local[3], double scale, double g[3][3])
+{
+    for (int i = 0; i < 9; i++) {
+        const int a = i / 3, d = i % 3;
+        double first = local[first_other(d)], second = local[second_other(d)];
+        g[a][d] = scale * (u[a][term_of(d, 0)][lane] + u[a][term_of(d, 1)][lane] * first
+                           + (u[a][term_of(d, 2)][lane] + u[a][term_of(d, 3)][lane] * first) * second);
+    }
+}
+
+double stiffness_strains(const struct mpm *mpm, const struct stiffness *stiffness, const double *x, int32_t b,
+                         double *const deviator[6])
 {
     const struct cell_block *block = &mpm->cells->blocks[b];
     const struct chunk chunk = {.block = block};
@@ -524,19 +537,20 @@ double stiffness_largest_gradient(const struct mpm *mpm, const struct stiffness 
         lanes u[3][8];
         if (block->cell_first[c] == block->cell_first[c + 1])
             continue;
-        for (int a = 0; a < 3; a++) /* of the row; the cell's own lane is used */
+        for (int a = 0; a < 3; a++)
             read_terms(patch + a * STIFFNESS_PATCH, EDGE * (c / BLOCK_EDGE % BLOCK_EDGE) + PLANE * (c / ROWS), u[a]);
         for (int32_t k = block->cell_first[c]; k < block->cell_first[c + 1]; k++) {
             const int32_t p = mpm->cells->order[block->first + k];
-            double local[3];
+            double local[3], g[3][3];
             for (int a = 0; a < 3; a++)
                 local[a] = (mpm->store->real[COLUMN_POSITION][a][p] - chunk_cell_low(mpm, &chunk, c, a)) * inverse - 0.5;
-            for (int i = 0; i < 9; i++) {
-                int a = i / 3, d = i % 3, lane = c % BLOCK_EDGE;
-                double first = local[first_other(d)], second = local[second_other(d)];
-                double g = u[a][term_of(d, 0)][lane] + u[a][term_of(d, 1)][lane] * first
-                         + (u[a][term_of(d, 2)][lane] + u[a][term_of(d, 3)][lane] * first) * second;
-                largest = fmax(largest, fabs(g) * inverse);
+            gradient_at(u, c % BLOCK_EDGE, local, inverse, g);
+            for (int i = 0; i < 9; i++)
+                largest = fmax(largest, fabs(g[i / 3][i % 3]));
+            const double mean = (g[0][0] + g[1][1] + g[2][2]) / 3;
+            for (int i = 0; i < 6 && deviator; i++) {
+                const int a = part_row[i], d = part_column[i];
+                deviator[i][p] = 0.5 * (g[a][d] + g[d][a]) - (a == d ? mean : 0);
             }
         }
     }

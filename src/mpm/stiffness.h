@@ -47,9 +47,10 @@ void stiffness_close(struct stiffness *stiffness);
 /* Makes room for n_blocks blocks, whose first `active` have cells; `blocks` is to be filled in. */
 void stiffness_open(struct stiffness *stiffness, int32_t n_blocks, int32_t active);
 
-/* The lattice of the program's grid: blocks, materials and moments of its particles. What is free has to
- * be filled in, then stiffness_diagonal called. */
-void stiffness_of_particles(struct stiffness *stiffness, const struct mpm *mpm);
+/* The lattice of the program's grid: blocks, materials and moments of its particles; `softening`, by place in
+ * memory, reduces their shear moduli (NULL: all elastic). What is free has to be filled in, then
+ * stiffness_diagonal called. */
+void stiffness_of_particles(struct stiffness *stiffness, const struct mpm *mpm, const double *softening);
 
 /* Where a set's moments of cell c begin; the next one is BLOCK_EDGE numbers further. */
 static inline int stiffness_cell(int c)
@@ -60,7 +61,7 @@ static inline int stiffness_cell(int c)
 /* Notes which rows of cells hold particles. */
 void stiffness_find_rows(struct stiffness *stiffness);
 
-/* Inverse of the diagonal blocks of K; what has no stiffness is no longer free. */
+/* Inverse of the diagonal blocks of K; what has no stiffness is no longer free, a node without any not held. */
 void stiffness_diagonal(struct stiffness *stiffness);
 
 /* y = K x on the free nodes. */
@@ -71,8 +72,10 @@ void stiffness_apply(const struct stiffness *stiffness, const double *x, double 
 void stiffness_give(const struct stiffness *stiffness, const double *x, int32_t b);
 void stiffness_collect(const struct stiffness *stiffness, int32_t b, double sum[STIFFNESS_VECTOR], bool masked);
 
-/* Largest component of the displacement gradient of a particle of block b under displacements x. */
-double stiffness_largest_gradient(const struct mpm *mpm, const struct stiffness *stiffness, const double *x, int32_t b);
+/* Displacement gradients of block b's particles under displacements x: their largest component, and, unless NULL,
+ * the deviatoric strains xx yy zz yz xz xy (halves of engineering shears) by place in memory. */
+double stiffness_strains(const struct mpm *mpm, const struct stiffness *stiffness, const double *x, int32_t b,
+                         double *const deviator[6]);
 
 /* z = inverse diagonal times r, of block b: factor times it is added to `share` times z. */
 void stiffness_jacobi(const struct stiffness *stiffness, int32_t b, const double *r, double factor, double share, double *z);

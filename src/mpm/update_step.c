@@ -206,7 +206,7 @@ double mpm_stable_step(const struct mpm *mpm, double fastest)
         smallest = step < smallest && mpm->is_material_open[i] ? step : smallest;
         of_all = fmin(step, of_all);
     }
-    return mpm->scene->step_scale * (smallest < DBL_MAX ? smallest : of_all); /* all where no particle is open yet */
+    return mpm->step_scale * (smallest < DBL_MAX ? smallest : of_all); /* all where no particle is open yet */
 }
 
 /* Kinetic damping (spec 9.5): all velocities to zero when the kinetic energy did not grow. */

@@ -482,8 +482,10 @@ int32_t cell_list_block_of(const struct cell_list *list, int32_t p, const struct
         position[a] = store->real[COLUMN_POSITION][a][p];
     if (p >= list->count || list->cell[p] == CELL_NONE || !cell_locate(&list->frame, position, cell))
         return -1;
-    for (int a = 0; a < 3; a++)
-        at[a] = cell[a] / BLOCK_EDGE;
+    for (int a = 0; a < 3; a++) { /* the one around its place whose cell it is listed in */
+        int32_t in_block = list->cell[p] >> (2 * a) & (BLOCK_EDGE - 1);
+        at[a] = (cell[a] - in_block + BLOCK_EDGE / 2) / BLOCK_EDGE;
+    }
     return find_block(list, at, component);
 }
 

@@ -64,7 +64,8 @@ void cell_list_admit(struct cell_list *list, const struct store *store, int32_t 
 /* Moves the particles that take part in memory into the order of the list. */
 void cell_list_sort(struct cell_list *list, struct store *store);
 
-/* Block of the particle at place p in memory; -1 when it has no cell or is closed. */
+/* Block of the particle at place p in memory; -1 when it has no cell or is closed. It may have left its
+ * listed cell by less than two cells. */
 int32_t cell_list_block_of(const struct cell_list *list, int32_t p, const struct store *store, int32_t component);
 
 /* Block at a place, or -1. */

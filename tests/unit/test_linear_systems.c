@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The solvers of base/: against matrices whose solutions are known. */
+#include "base/conjugate.h"
+#include "base/envelope.h"
+#include "base/symmetric.h"
+#include "base/vector.h"
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { GRID = 12, COUNT = GRID * GRID };
+
+/* The five-point difference matrix of a square; `held` adds 1 to the first diagonal entry, else rows sum to zero. */
+static double laplace(int i, int j, bool held)
+{
+    const int dx = abs(i % GRID - j % GRID), dy = abs(i / GRID - j / GRID);
+    if (i == j) {
+        int x = i % GRID, y = i / GRID;
+        return (x > 0) + (x < GRID - 1) + (y > 0) + (y < GRID - 1) + (held && i == 0);
+    }
+    return dx + dy == 1 ? -1 : 0;
+}
+
+static void apply_held(void *context, const double *x, double *y)
+{
+    (void)context;
+    for (int i = 0; i < COUNT; i++) {
+        y[i] = 0;
+        for (int j = 0; j < COUNT; j++)
+            y[i] += laplace(i, j, true) * x[j];
+    }
+}
+
+static void apply_free(void *context, const double *x, double *y)
+{
+    (void)context;
+    apply_held(NULL, x, y);
+    y[0] -= x[0];
+}
+
+static void precondition(void *context, const double *r, double *z)
+{
+    (void)context;
+    for (int i = 0; i < COUNT; i++)
+        z[i] = r[i] / laplace(i, i, true);
+}
+
+static void fill_solution(double x[COUNT])
+{
+    for (int i = 0; i < COUNT; i++)
+        x[i] = sin(0.7 * i) + 0.01 * i;
+}
+
+static double largest_difference(const double *a, const double *b)
+{
+    double largest = 0;
+    for (int i = 0; i < COUNT; i++)
+        largest = fmax(largest, fabs(a[i] - b[i]));
+    return largest;
+}
+
+static void test_conjugate(void)
+{
+    struct conjugate_room room = {0};
+    double wanted[COUNT], right[COUNT], x[COUNT];
+    struct conjugate_problem problem = {NULL, apply_held, precondition, COUNT};
+    fill_solution(wanted);
+    apply_held(NULL, wanted, right);
+    struct conjugate_result result = conjugate_solve(&problem, &room, x, right, 1e-12, 1000);
+    check_true("conjugate gradients end", result.ending == CONJUGATE_FOUND && result.iterations <= COUNT);
+    check_near("conjugate gradients: solution", largest_difference(x, wanted), 0, 1e-9);
+    check_near("conjugate gradients: residual left behind", vector_length(right, COUNT), result.residual, 1e-15);
+    /* all values may move together: no solution unless the right side sums to zero */
+    problem.apply = apply_free;
+    apply_free(NULL, wanted, right);
+    result = conjugate_solve(&problem, &room, x, right, 1e-12, 1000);
+    for (int i = COUNT - 1; i >= 0; i--)
+        x[i] += wanted[0] - x[0];
+    check_near("conjugate gradients: singular with a solution", largest_difference(x, wanted), 0, 1e-9);
+    for (int i = 0; i < COUNT; i++)
+        right[i] = 1;
+    result = conjugate_solve(&problem, &room, x, right, 1e-12, 1000);
+    check_true("conjugate gradients: singular without", result.ending == CONJUGATE_SINGULAR && result.iterations < COUNT);
+    fill_solution(right);
+    result = conjugate_solve(&problem, &room, x, right, 1e-12, 3);
+    check_true("conjugate gradients: limit", result.ending == CONJUGATE_LIMIT && result.iterations == 3);
+    conjugate_close(&room);
+}
+
+static void factor_laplace(struct envelope *envelope, bool held)
+{
+    int32_t first[COUNT];
+    for (int i = 0; i < COUNT; i++)
+        first[i] = i < GRID ? 0 : i - GRID;
+    envelope_open(envelope, COUNT, first);
+    for (int i = 0; i < COUNT; i++)
+        for (int j = first[i]; j <= i; j++)
+            *envelope_at(envelope, i, j) = laplace(i, j, held);
+    envelope_factor(envelope);
+}
+
+static void test_envelope(void)
+{
+    struct envelope envelope = {0};
+    double wanted[COUNT], x[COUNT];
+    fill_solution(wanted);
+    factor_laplace(&envelope, true);
+    apply_held(NULL, wanted, x);
+    envelope_solve(&envelope, x);
+    check_near("envelope: solution", largest_difference(x, wanted), 0, 1e-11);
+    factor_laplace(&envelope, false);
+    apply_free(NULL, wanted, x);
+    envelope_solve(&envelope, x);
+    check_near("envelope: the last unknown of a singular system is held", x[COUNT - 1], 0, 0);
+    for (int i = 0; i < COUNT; i++)
+        x[i] += wanted[COUNT - 1];
+    check_near("envelope: singular system", largest_difference(x, wanted), 0, 1e-11);
+    envelope_close(&envelope);
+}
+
+/* Eigenvalues of the chain matrix 2, -1: 2 - 2 cos(k pi / 7). */
+static void test_symmetric(void)
+{
+    double m[6][6] = {{0}}, values[6], vectors[6][6], worst = 0, apart = 0;
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++)
+            m[i][j] = i == j ? 2 : abs(i - j) == 1 ? -1 : 0;
+    symmetric_eigen(6, m, values, vectors);
+    for (int k = 1; k <= 6; k++) {
+        double nearest = 1;
+        for (int i = 0; i < 6; i++)
+            nearest = fmin(nearest, fabs(values[i] - (2 - 2 * cos(k * acos(-1) / 7))));
+        worst = fmax(worst, nearest);
+    }
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++) {
+            double sum = 0;
+            for (int k = 0; k < 6; k++)
+                sum += vectors[k][i] * vectors[k][j];
+            apart = fmax(apart, fabs(sum - (i == j)));
+        }
+    check_near("eigenvalues", worst, 0, 1e-14);
+    check_near("eigenvectors are orthonormal", apart, 0, 1e-14);
+}
+
+static void test_vectors(void)
+{
+    enum { LONG = 100001 };
+    double *a = malloc(LONG * sizeof *a), *b = malloc(LONG * sizeof *b), exact = 0;
+    for (int i = 0; i < LONG; i++) {
+        a[i] = i % 7 - 3;
+        b[i] = i % 5;
+        exact += a[i] * b[i];
+    }
+    check_near("product of long vectors of whole numbers", vector_dot(a, b, LONG), exact, 0);
+    vector_add(a, 2, b, LONG);
+    vector_renew(b, a, -1, LONG);
+    check_near("sums of long vectors", b[LONG - 1], (100000 % 7 - 3) + 100000 % 5, 0);
+    free(a);
+    free(b);
+}
+
+int main(void)
+{
+    test_vectors();
+    test_conjugate();
+    test_envelope();
+    test_symmetric();
+    return check_result();
+}
