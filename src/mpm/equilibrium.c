@@ -16,12 +16,17 @@
 static const double LINEAR_TOLERANCE = 1e-4, LINEAR_SHARE = 0.3;
 /* A Newton step is shortened so that no displacement gradient at a particle exceeds this. */
 static const double LARGEST_GRADIENT = 0.1;
+/* Forces may grow in between, where slender bodies turn or plastic flow begins, if a step leaves less than this of their
+ * work on it and they are not this many times the reference. */
+static const double LEAST_DECREASE = 0.8, LARGEST_GROWTH = 100;
+/* Steps whose longest way is below this part of a cell are small: particles may be kept in cells that they left. */
+static const double SMALL_WAY = 0.05;
 /* Forces below this part of those of single particles are their round-off. */
 static const double ROUND_OFF = 1e-14;
 /* Motion with kinetic damping takes this part of the stable step at most: nodes of small mass want less than dtsc's 0.9. */
 static const double DAMPED_SCALE = 0.5;
-/* Iterations of a linear system; halvings of a step whose forces grow; whole steps in which particles may
- * change cells, which lets forces jump; time steps with kinetic damping, and of these between two looks at the forces. */
+/* Iterations of a linear system; halvings of a step whose forces grow; small whole steps in which particles
+ * may change cells, which lets forces jump; time steps with kinetic damping, and of these between two looks at the forces. */
 enum { LINEAR_ITERATIONS = 1000, HALVINGS = 4, CROSSING_STEPS = 4, DAMPED_STEPS = 50000, DAMPED_LOOK = 20 };
 
 /* What a step changes in the particles. */
@@ -293,26 +298,50 @@ static void find_softening(struct mpm *mpm, double scale)
     }
 }
 
-/* Moves by the displacements found, or by less while the forces grow. Energy that a motion there would lose:
+/* Work of the unbalanced forces on the displacements; the blocks may have changed since these were found. */
+static double work_of_forces(const struct mpm *mpm)
+{
+    const struct equilibrium *equilibrium = mpm->equilibrium;
+    const struct stiffness *then = &equilibrium->multigrid.level[0].stiffness;
+    double work = 0;
+    for (int32_t b = 0; b < then->n_blocks; b++) {
+        int32_t now = cell_list_find_block(mpm->cells, then->blocks[b].at, 0);
+        if (now >= 0)
+            work += vector_dot(equilibrium->force + (size_t)now * STIFFNESS_VECTOR,
+                               equilibrium->displacement + (size_t)b * STIFFNESS_VECTOR, STIFFNESS_VECTOR);
+    }
+    return work;
+}
+
+/* Largest displacement of a node, in cells. */
+static double largest_way(const struct mpm *mpm)
+{
+    const struct equilibrium *equilibrium = mpm->equilibrium;
+    const size_t count = multigrid_count(&equilibrium->multigrid);
+    double largest = 0;
+    for (size_t i = 0; i < count; i++)
+        largest = fmax(largest, fabs(equilibrium->displacement[i]));
+    return largest / mpm->cells->frame.size;
+}
+
+/* Moves by the displacements found, or by less while the forces grow and so does the energy. Energy that a motion there would lose:
  * the work of the unbalanced forces, whose mean is half the sum of those before and after. */
 static bool take_step(struct mpm *mpm, int *crossing)
 {
     struct equilibrium *equilibrium = mpm->equilibrium;
-    const double before = equilibrium->size;
-    const long version = mpm->cells->version;
-    const size_t count = vector_count(mpm);
-    double scale = largest_scale(mpm), lost = vector_dot(equilibrium->force, equilibrium->displacement, count);
+    const double before = equilibrium->size, lost = work_of_forces(mpm);
+    double scale = largest_scale(mpm);
     save(mpm);
     for (int halvings = 0; halvings <= HALVINGS; halvings++, scale /= 2) {
         move(mpm, scale);
         renew_forces(mpm, 0);
         bool is_sound = isfinite(equilibrium->size) && mpm->sums.least_volume > 0;
-        double left = mpm->cells->version == version ? vector_dot(equilibrium->force, equilibrium->displacement, count) : 0;
-        bool is_less = equilibrium->size < before || equilibrium->size <= equilibrium->limit
-                    || (mpm->cells->version == version && fabs(left) < 0.8 * lost && equilibrium->size < 10 * equilibrium->reference);
+        double left = work_of_forces(mpm);
+        bool is_less = equilibrium->size < before || equilibrium->size <= equilibrium->limit;
+        bool is_flatter = fabs(left) < LEAST_DECREASE * lost && equilibrium->size < LARGEST_GROWTH * equilibrium->reference;
         bool may_grow = equilibrium->moved > 0 && equilibrium->size < equilibrium->reference;
-        if (is_sound && (is_less || may_grow)) {
-            *crossing += equilibrium->moved > 0 && scale == 1;
+        if (is_sound && (is_less || is_flatter || may_grow)) {
+            *crossing += equilibrium->moved > 0 && scale == 1 && largest_way(mpm) < SMALL_WAY;
             find_softening(mpm, scale);
             equilibrium->is_soft = equilibrium->can_soften;
             mpm->external_work += equilibrium->work;
@@ -376,21 +405,25 @@ static void search(struct mpm *mpm)
         report->newton_steps++;
         mpm->keeps_cells = crossing == CROSSING_STEPS;
         equilibrium->is_singular = ending == CONJUGATE_SINGULAR;
-        if (!take_step(mpm, &crossing)) {
-            if (equilibrium->is_soft) { /* an elastic stiffness goes less far, and in a safe direction */
-                equilibrium->is_soft = false;
-                continue;
-            }
-            say(report, "the unbalanced forces do not fall any more", "try smaller loads, or a larger tolerance of quas");
-            return;
-        }
+        bool is_taken = take_step(mpm, &crossing);
         if (equilibrium->is_singular && equilibrium->size > equilibrium->limit) {
             say(report, "a force acts on something that has no stiffness",
                 "a part that hangs on a node or an edge, or a mode of cells with one particle: hold it, or take more particles a cell");
             return;
         }
+        if (!is_taken && !equilibrium->is_soft) {
+            say(report, "the unbalanced forces do not fall any more", "try smaller loads, or a larger tolerance of quas");
+            return;
+        }
+        if (!is_taken) /* an elastic stiffness goes less far, and in a safe direction */
+            equilibrium->is_soft = false;
     }
     report->state = EQUILIBRIUM_FOUND;
+    release_cells(mpm);
+    if (report->kept_distance > SMALL_WAY) {
+        report->state = EQUILIBRIUM_MISSED;
+        say(report, "forces jump as particles change cells", "try smaller loads, or more particles a cell");
+    }
 }
 
 /* --- motion with kinetic damping --- */
@@ -504,9 +537,9 @@ enum equilibrium_state mpm_equilibrate(struct mpm *mpm)
     still(mpm);
     if (start_search(mpm))
         search(mpm);
+    release_cells(mpm);
     mpm->moves_last = mpm->scene->scheme != SCHEME_USF;
     mpm->time_step = step;
-    release_cells(mpm);
     if (equilibrium->report.state == EQUILIBRIUM_MISSED && !equilibrium->is_singular)
         settle(mpm);
     still(mpm);
