@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* mpm3d: the command line, and a run from its deck to its end. */
-#define _POSIX_C_SOURCE 200809L
+#define _XOPEN_SOURCE 700
 #include "base/threads.h"
 #include "deck/help.h"
 #include "run.h"
@@ -10,22 +10,25 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { MOST_THREADS = 1024 };
 
 /* The only thing that changes behind the program's back. */
 static volatile sig_atomic_t interrupted;
 
+/* The first signal ends the run after its step, a second one at once. */
 static void interrupt(int signal_number)
 {
     (void)signal_number;
+    if (interrupted)
+        _exit(STATUS_INTERRUPTED);
     interrupted = 1;
 }
 
-/* The first signal ends the run after its step, a second one at once. */
 static void catch_signals(void)
 {
-    struct sigaction action = {.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND};
+    struct sigaction action = {.sa_handler = interrupt, .sa_flags = SA_RESTART};
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
@@ -37,6 +40,8 @@ static void print_usage(FILE *stream)
           "  DECK             a deck such as job.mpm; - is standard input\n"
           "  --check          read the deck and build the scene, do not run\n"
           "  -o DIR           write the output files to DIR, made where it is missing\n"
+          "  --restart FILE   go on from the checkpoint FILE (job.rest) of the same deck, with the output\n"
+          "                   files beside it, or in DIR of -o; other endt, rptt, rest, sort may be given\n"
           "  --threads N      use N threads (default: all processors, one for small scenes)\n"
           "  --quiet          no progress line and no summary\n"
           "  --help [WORD]    this text and all words, or one word, law, generator or result\n"
@@ -66,6 +71,7 @@ static enum status print_help(const char *word)
 static enum status run_deck(const struct run_options *options)
 {
     struct run run;
+    signal(SIGXFSZ, SIG_IGN); /* a file that grows too large is a failure to write as any other */
     enum status status = run_open(&run, options);
     if (status == STATUS_FINISHED && options->only_check) {
         summary_check(run.mpm, stdout);
@@ -75,7 +81,7 @@ static enum status run_deck(const struct run_options *options)
     while (status == STATUS_FINISHED && run_goes_on(&run)) {
         status = run_step(&run);
         if (status == STATUS_FINISHED && interrupted)
-            status = STATUS_INTERRUPTED;
+            status = run_interrupt(&run);
     }
     return run_close(&run, status);
 }
@@ -92,7 +98,7 @@ static bool set_thread_count(const char *text)
 
 int main(int count, char **arguments)
 {
-    struct run_options options = {.folder = ""};
+    struct run_options options = {0};
     threads_wait_briefly(arguments);
     for (int i = 1; i < count; i++) {
         const char *word = arguments[i];
@@ -109,10 +115,12 @@ int main(int count, char **arguments)
             options.only_check = true;
         else if (strcmp(word, "--quiet") == 0 || strcmp(word, "-q") == 0)
             options.quiet = true;
-        else if ((strcmp(word, "-o") == 0 || strcmp(word, "--threads") == 0) && !value)
+        else if ((strcmp(word, "-o") == 0 || strcmp(word, "--threads") == 0 || strcmp(word, "--restart") == 0) && !value)
             return (int)wrong_usage("a value has to follow", word);
         else if (strcmp(word, "-o") == 0)
             options.folder = arguments[++i];
+        else if (strcmp(word, "--restart") == 0)
+            options.restart = arguments[++i];
         else if (strcmp(word, "--threads") == 0 && !set_thread_count(arguments[++i]))
             return (int)wrong_usage("not a number of threads from 1 to 1024:", value);
         else if (strcmp(word, "--threads") == 0)

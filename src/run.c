@@ -7,6 +7,7 @@
 #include "deck/reader.h"
 #include "mpm/equilibrium.h"
 #include "output/animation.h"
+#include "restart.h"
 #include "summary.h"
 #include "version.h"
 
@@ -68,6 +69,8 @@ static enum status read_deck(struct run *run)
 static enum status build(struct run *run)
 {
     run->mpm = mpm_open(run->scene, &run->timers, run->diagnostics);
+    run->is_shown = memory_array(run->scene->writes_animation ? run->mpm->store->count : 0, 1, "output");
+    vtk_open(&run->vtk, run->options.folder, run->scene->job);
     if (run->options.has_threads)
         mpm_share_always(run->mpm);
     print_diagnostics(run);
@@ -93,16 +96,22 @@ static void write_lost(struct run *run)
             table_real(&run->lost, store->real[COLUMN_POSITION][a][p]);
         for (int a = 0; a < 3; a++)
             table_real(&run->lost, store->real[COLUMN_VELOCITY][a][p]);
-        fputc('\n', run->lost.stream);
+        table_end_line(&run->lost);
     }
     run->known_lost = lost;
+}
+
+/* The files of a run that goes on are there. */
+static enum table_mode mode_of(const struct run *run)
+{
+    return run->options.restart ? TABLE_CONTINUED : TABLE_NEW;
 }
 
 /* Opens the table "job" + ending in the folder of the run. */
 static bool open_table(struct run *run, struct table *table, const char *ending)
 {
     return table_open_job(table, run->options.folder, run->scene->job, ending,
-                          (struct table_style){(int)run->scene->digits, run->scene->bare_headers});
+                          (struct table_style){(int)run->scene->digits, run->scene->bare_headers}, mode_of(run));
 }
 
 static enum status open_log(struct run *run)
@@ -114,35 +123,28 @@ static enum status open_log(struct run *run)
     return good ? STATUS_FINISHED : STATUS_FILE;
 }
 
-static enum status open_output(struct run *run)
+static bool open_tables(struct run *run)
 {
     const struct scene *scene = run->scene;
+    bool good = open_log(run) == STATUS_FINISHED && history_open(&run->history, scene, run->options.folder, mode_of(run))
+             && (!scene->writes_animation || open_table(run, &run->animation, "_anim.dat"))
+             && (!scene->writes_lost || open_table(run, &run->lost, "_lost.dat"));
+    if (good && scene->writes_animation)
+        table_by_zones(&run->animation);
+    if (good && scene->writes_lost)
+        table_by_lines(&run->lost);
+    return good;
+}
+
+static enum status open_output(struct run *run)
+{
     const char *folder = run->options.folder;
-    if (*folder && mkdir(folder, 0777) != 0 && errno != EEXIST) {
+    if (*folder && mode_of(run) == TABLE_NEW && mkdir(folder, 0777) != 0 && errno != EEXIST) {
         status_error("cannot create the folder '%s': %s", folder, strerror(errno));
         return STATUS_FILE;
     }
     run->has_output = true;
-    if (open_log(run) != STATUS_FINISHED || !history_open(&run->history, scene, folder))
-        return STATUS_FILE;
-    if (scene->writes_vtk) {
-        vtk_open(&run->vtk, folder, scene->job);
-        if (!vtk_write_grid(&run->vtk, scene))
-            return STATUS_FILE;
-    }
-    if (scene->writes_animation) {
-        if (!open_table(run, &run->animation, "_anim.dat"))
-            return STATUS_FILE;
-        animation_header(&run->animation, scene);
-        run->is_shown = memory_array(run->mpm->store->count, 1, "output");
-    }
-    if (scene->writes_lost) {
-        if (!open_table(run, &run->lost, "_lost.dat"))
-            return STATUS_FILE;
-        fprintf(run->lost.stream, "VARIABLES = \"Time\" \"id\" \"X\" \"Y\" \"Z\" \"velx\" \"vely\" \"velz\"\n");
-        write_lost(run);
-    }
-    return STATUS_FINISHED;
+    return open_tables(run) ? STATUS_FINISHED : STATUS_FILE;
 }
 
 /* Marks the particles that the animation file shows: those that had a cell in this step (all of
@@ -193,29 +195,64 @@ static void write_report_line(struct run *run)
             mpm->sums.momentum[1], mpm->sums.momentum[2]);
 }
 
+/* What the files of a new run begin with. */
+static enum status start_output(struct run *run)
+{
+    const struct scene *scene = run->scene;
+    run->is_under_way = true;
+    if (scene->writes_vtk && !vtk_write_grid(&run->vtk, scene))
+        return STATUS_FILE;
+    if (scene->writes_animation)
+        animation_header(&run->animation, scene);
+    if (scene->writes_lost) {
+        fprintf(run->lost.stream, "VARIABLES = \"Time\" \"id\" \"X\" \"Y\" \"Z\" \"velx\" \"vely\" \"velz\"\n");
+        write_lost(run);
+    }
+    fprintf(run->log, "! mpm3d %s: the deck as understood; it can be run again\n", VERSION);
+    echo_scene(scene, run->log, scene->n_particles <= 20000);
+    summary_start(run->mpm, run->log);
+    run->next_output = (float)scene->output_interval;
+    return write_dump(run);
+}
+
+static enum status continue_output(struct run *run)
+{
+    enum status status = restart_continue(run);
+    run->is_under_way = status == STATUS_FINISHED;
+    return status;
+}
+
 /* --- the run --- */
+
+/* Where nothing else is said, the files of a run that goes on are beside its checkpoint. */
+static void choose_folder(struct run *run)
+{
+    const char *path = run->options.restart, *slash = path ? strrchr(path, '/') : NULL;
+    if (run->options.folder)
+        return;
+    run->restart_folder = slash ? memory_text(path, slash == path ? 1 : (size_t)(slash - path)) : NULL;
+    run->options.folder = slash ? run->restart_folder : "";
+}
 
 enum status run_open(struct run *run, const struct run_options *options)
 {
-    *run = (struct run){.options = *options};
+    *run = (struct run){.options = *options, .checkpoint_step = -1};
     run->started = threads_clock();
     timers_start(&run->timers);
+    choose_folder(run);
     enum status status = read_deck(run);
     if (status == STATUS_FINISHED)
         status = build(run);
+    if (status == STATUS_FINISHED && options->restart)
+        status = restart_read(run);
     if (status != STATUS_FINISHED || options->only_check)
         return status;
-    status = open_output(run);
-    if (status != STATUS_FINISHED)
-        return status;
-    fprintf(run->log, "! mpm3d %s: the deck as understood; it can be run again\n", VERSION);
-    echo_scene(run->scene, run->log, run->scene->n_particles <= 20000);
-    summary_start(run->mpm, run->log);
-    run->next_output = (float)run->scene->output_interval;
     timers_enter(&run->timers, PHASE_OUTPUT);
-    status = write_dump(run);
+    status = open_output(run);
+    if (status == STATUS_FINISHED)
+        status = options->restart ? continue_output(run) : start_output(run);
     timers_enter(&run->timers, PHASE_OTHER);
-    progress_open(&run->progress, !options->quiet);
+    progress_open(&run->progress, !options->quiet, run->mpm->time, run->scene->end_time);
     return status;
 }
 
@@ -306,8 +343,28 @@ static struct instability advance(struct run *run)
     return mpm_check(run->mpm);
 }
 
+/* Whether a checkpoint is to be written after a step that began at time `before`, or after the last one. */
+static bool is_checkpoint_due(const struct run *run, double before)
+{
+    const struct scene *scene = run->scene;
+    if (scene->restart_steps == 0 && scene->restart_interval == 0)
+        return false;
+    if (!run_goes_on(run))
+        return true;
+    if (scene->restart_steps > 0)
+        return run->mpm->step % scene->restart_steps == 0;
+    return floor(run->mpm->time / scene->restart_interval) > floor(before / scene->restart_interval);
+}
+
+enum status run_interrupt(struct run *run)
+{
+    enum status status = restart_write(run);
+    return status == STATUS_FINISHED ? STATUS_INTERRUPTED : status;
+}
+
 enum status run_step(struct run *run)
 {
+    const double before = run->mpm->time;
     run->lost_before_step = run->mpm->cells->count - run->mpm->cells->in_cells;
     struct instability instability = advance(run);
     if (instability.is_stopped) {
@@ -320,6 +377,8 @@ enum status run_step(struct run *run)
     }
     timers_enter(&run->timers, PHASE_OUTPUT);
     enum status status = write_step(run);
+    if (status == STATUS_FINISHED && is_checkpoint_due(run, before))
+        status = restart_write(run);
     progress_show(&run->progress, run->mpm->step, run->mpm->time, run->scene->end_time);
     timers_enter(&run->timers, PHASE_OTHER);
     return status;
@@ -339,23 +398,36 @@ static bool close_output(struct run *run)
         good = false;
     }
     memory_free(run->log_path);
-    vtk_close(&run->vtk);
     return good;
+}
+
+/* How to go on with a run that was interrupted. */
+static void print_way_on(const struct run *run, FILE *stream)
+{
+    char *path = restart_path(run);
+    fprintf(stream, "to go on: mpm3d --restart %s %s\n", path, run->options.deck);
+    memory_free(path);
 }
 
 enum status run_close(struct run *run, enum status status)
 {
     progress_close(&run->progress);
-    if (run->log && run->mpm) {
+    if (run->is_under_way) {
         timers_enter(&run->timers, PHASE_OTHER);
         double seconds = threads_clock() - run->started;
         summary_end(run->mpm, &run->timers, seconds, status, run->log);
         if (!run->options.quiet)
             summary_end(run->mpm, &run->timers, seconds, status, stderr);
+        if (status == STATUS_INTERRUPTED)
+            print_way_on(run, run->log);
+        if (status == STATUS_INTERRUPTED && !run->options.quiet)
+            print_way_on(run, stderr);
     }
     if (run->has_output && !close_output(run) && status == STATUS_FINISHED)
         status = STATUS_FILE;
     memory_free(run->is_shown);
+    memory_free(run->restart_folder);
+    vtk_close(&run->vtk);
     mpm_close(run->mpm);
     scene_close(run->scene);
     text_close(run->text);

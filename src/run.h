@@ -15,11 +15,14 @@
 /* What the command line says. */
 struct run_options {
     const char *deck;   /* path, or "-" */
-    const char *folder; /* of the output files; "" is the present one */
+    const char *folder; /* of the output files; "" is the present one, NULL that of the checkpoint, else the present one */
+    const char *restart; /* checkpoint to go on from, or NULL */
     bool quiet;
     bool has_threads; /* a number of threads was asked for */
     bool only_check;
 };
+
+enum { RUN_TABLES = 7 };
 
 struct run {
     struct run_options options;
@@ -44,9 +47,14 @@ struct run {
     long dumps;
     bool has_told_floating; /* that free motions of bodies are taken out (quas) */
     double started;
+    bool is_under_way;    /* the files are open and at their places */
+    char *restart_folder; /* of the checkpoint, where it is also that of the output */
+    long checkpoint_step; /* of the last checkpoint; -1: none */
+    struct table_mark marks[RUN_TABLES]; /* of the tables at that step */
 };
 
-/* Reads the deck, builds the scene and the method, opens the files and writes the start state.
+/* Reads the deck, builds the scene and the method, opens the files and writes the start state, or takes the
+ * state from a checkpoint and continues its files.
  * Returns STATUS_FINISHED, or why it can't run (messages are printed). Close it in any case. */
 enum status run_open(struct run *run, const struct run_options *options);
 
@@ -55,6 +63,9 @@ bool run_goes_on(const struct run *run);
 
 /* One step with its output. Anything but STATUS_FINISHED ends the run. */
 enum status run_step(struct run *run);
+
+/* Ends the run between two steps, with a checkpoint: STATUS_INTERRUPTED, or STATUS_FILE. */
+enum status run_interrupt(struct run *run);
 
 /* Writes the summary and closes the files; `status` says how the run ended. Returns it, or
  * STATUS_FILE when a file could not be completed. */

@@ -3,6 +3,8 @@
 #include "base/memory.h"
 #include "deck/reader.h"
 
+#include <limits.h>
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 #include <strings.h>
@@ -141,6 +143,31 @@ static void read_smoothing(struct reader *reader, const struct deck_word *word, 
     reader->scene->smooths_pressure = true;
 }
 
+/* every n [steps], or every t time. */
+static void read_restart(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    static const char *const every[] = {"every", NULL}, *const units[] = {"steps", "time", NULL};
+    static const struct argument number[] = {{"number", NULL, ARGUMENT_REAL, LIMIT_POSITIVE}, {0}};
+    struct value value[2];
+    (void)word;
+    (void)values;
+    if (reader_optional(reader, every) < 0) {
+        diagnostics_error(reader->diagnostics, text_behind(&reader->last), "rest lacks 'every n steps' or 'every t time'");
+        reader_skip_line(reader);
+        return;
+    }
+    if (!reader_values(reader, number, "rest", value))
+        return;
+    const bool is_time = reader_optional(reader, units) == 1;
+    if (!is_time && (value[0].real != floor(value[0].real) || value[0].real > INT_MAX)) {
+        diagnostics_error(reader->diagnostics, value[0].word.place,
+                          "rest every: %g is no whole number of steps; a time is 'every %g time'", value[0].real, value[0].real);
+        return;
+    }
+    reader->scene->restart_steps = is_time ? 0 : (long)value[0].real;
+    reader->scene->restart_interval = is_time ? value[0].real : 0;
+}
+
 #define INTERVAL ((const struct argument[]){{"interval", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}})
 #define RESULT {"result", NULL, ARGUMENT_WORD, LIMIT_NONE}
 #define LENGTH(name) {name, "length", ARGUMENT_REAL, LIMIT_NONE}
@@ -172,4 +199,10 @@ const struct keyword output_keywords[] = {
     {.name = "smoo", .apply = read_smoothing, .doc = "adds a smoothed pressure to the ParaView files"},
     {.name = "para", .long_name = "paraview", .apply = read_paraview,
      .doc = "write ParaView files job_anim_N.vtu and job_anim.pvd; `para ascii` or `para binary` (by size)"},
+    {.name = "rest", .long_name = "restart", .apply = read_restart,
+     .doc = "`rest every n steps` or `rest every t time`: then, and at the end, writes a checkpoint job.rest to go on "
+            "from with mpm3d --restart job.rest job.mpm",
+     .details = "rest every n steps\nrest every t time\nThe one before is kept as job.rest.old. A run that is interrupted by "
+                "Ctrl-C or SIGTERM writes\none without rest too. Files that the run had written go on where they were at the "
+                "checkpoint;\nendt, rptt, rest and sort of the deck may be others."},
     {0}};

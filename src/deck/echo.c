@@ -278,6 +278,10 @@ static void echo_output(const struct scene *scene, FILE *stream)
         fprintf(stream, "para%s\n", scene->vtk_format == VTK_TEXT ? " ascii" : scene->vtk_format == VTK_BINARY ? " binary" : "");
     if (scene->smooths_pressure)
         fprintf(stream, "smoo\n");
+    if (scene->restart_steps > 0)
+        fprintf(stream, "rest every %ld steps\n", scene->restart_steps);
+    else if (scene->restart_interval > 0)
+        fputs("rest every", stream), print_numbers(stream, &scene->restart_interval, 1), fputs(" time\n", stream);
     for (size_t i = 0; i < scene->n_results; i++)
         fprintf(stream, "outr %s\n", scene->results[i]->name);
     for (size_t i = 0; i < scene->n_curves; i++) {

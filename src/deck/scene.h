@@ -162,6 +162,8 @@ struct scene {
     bool writes_animation, writes_vtk, smooths_pressure, bare_names, bare_headers;
     enum vtk_format vtk_format;
     long digits; /* significant, in the tables */
+    long restart_steps;      /* rest: steps from one checkpoint to the next; 0: none */
+    double restart_interval; /* time from one to the next; 0: none */
 
     struct scene_material *materials;
     size_t n_materials, materials_capacity;

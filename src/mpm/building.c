@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a part that is built up adds to a run: closed particles that open, and what they bring along. */
+#include "base/checkpoint.h"
 #include "base/memory.h"
 #include "deck/diagnostics.h"
 #include "mpm/mpm.h"
@@ -116,6 +117,21 @@ bool building_step(struct mpm *mpm, long step)
     if (n > 0 && mpm->heat)
         take_energy(mpm, heat_switch_on(mpm->heat, mpm->scene, mpm->store, mpm->cells, mpm->cells->count - 1));
     return n > 0;
+}
+
+void building_exchange(struct mpm *mpm, struct checkpoint *checkpoint)
+{
+    if (mpm->heat) {
+        const size_t count = checkpoint_count(checkpoint, "hot particles", heat_count(mpm->heat), mpm->store->count);
+        checkpoint_item(checkpoint, "ids of hot particles", heat_ids(mpm->heat, count), sizeof(int32_t), count);
+    }
+    if (!checkpoint_is_reading(checkpoint))
+        return;
+    const size_t count = (size_t)mpm->cells->count, opened = count - mpm->n_open;
+    if (count < mpm->n_open || (mpm->schedule ? !schedule_skip(mpm->schedule, opened) : opened > 0))
+        checkpoint_reject(checkpoint, "open particles");
+    for (size_t p = 0; p < count && mpm->scene->building.has_ghosts; p++)
+        note_material(mpm, p);
 }
 
 bool building_has_settled(const struct mpm *mpm, long step)

@@ -15,6 +15,7 @@ struct contact;
 struct schedule;
 struct heat;
 struct equilibrium;
+struct checkpoint;
 
 /* Sums over particles, per block and in all. */
 struct sums {
@@ -127,6 +128,10 @@ void mpm_step(struct mpm *mpm);
 /* The time step that `dtfx` or the wave speeds allow (spec 5), with particles of some speed. */
 double mpm_stable_step(const struct mpm *mpm, double fastest);
 
+/* Writes the whole state between two steps to a checkpoint, or takes it from one into a run of the same deck
+ * that was just opened. What does not fit is reported there. */
+void mpm_exchange(struct mpm *mpm, struct checkpoint *checkpoint);
+
 /* Why the last step can't be trusted. */
 struct instability {
     bool is_stopped;
@@ -208,6 +213,8 @@ void building_close(struct mpm *mpm);
 bool building_step(struct mpm *mpm, long step);
 /* The next step at which something is due; 0 when the build is complete. */
 long building_next_step(const struct mpm *mpm);
+/* The part of mpm_exchange that is about them; the particles come before. */
+void building_exchange(struct mpm *mpm, struct checkpoint *checkpoint);
 /* Whether `open settle` ends the run behind a step. */
 bool building_has_settled(const struct mpm *mpm, long step);
 

@@ -5,12 +5,14 @@
 
 /* "job" + ending, or the reference's bare name. Opens the table. */
 static bool open_named(struct table *table, const struct scene *scene, const char *folder, const char *ending,
-                       const char *bare)
+                       const char *bare, enum table_mode mode)
 {
     struct table_style style = {(int)scene->digits, scene->bare_headers};
-    if (scene->bare_names && bare)
-        return table_open(table, folder, bare, style);
-    return table_open_job(table, folder, scene->job, ending, style);
+    bool good = scene->bare_names && bare ? table_open(table, folder, bare, style, mode)
+                                          : table_open_job(table, folder, scene->job, ending, style, mode);
+    if (good)
+        table_by_lines(table);
+    return good;
 }
 
 static void write_curve_header(struct history *history, const struct scene *scene)
@@ -25,26 +27,34 @@ static void write_curve_header(struct history *history, const struct scene *scen
         for (size_t i = 0; i < scene->n_curves; i++)
             fprintf(stream, " \"%s %ld\"", scene->curves[i].result->name, scene->curves[i].particle + 1);
     }
-    fputc('\n', stream);
+    table_end_line(&history->curves);
 }
 
-bool history_open(struct history *history, const struct scene *scene, const char *folder)
+static void write_header(struct table *table, const char *names)
+{
+    fprintf(table->stream, "VARIABLES = %s", names);
+    table_end_line(table);
+}
+
+bool history_open(struct history *history, const struct scene *scene, const char *folder, enum table_mode mode)
 {
     *history = (struct history){0};
-    if (!open_named(&history->curves, scene, folder, "_curv.dat", NULL)
-        || !open_named(&history->energy, scene, folder, "_energy.dat", "EnergyPlot.dat")
-        || !open_named(&history->momentum, scene, folder, "_momentum.dat", "MomentumPlot.dat"))
+    if (!open_named(&history->curves, scene, folder, "_curv.dat", NULL, mode)
+        || !open_named(&history->energy, scene, folder, "_energy.dat", "EnergyPlot.dat", mode)
+        || !open_named(&history->momentum, scene, folder, "_momentum.dat", "MomentumPlot.dat", mode))
         return false;
     /* the reference leaves an empty table where there is no contact */
     bool has_contact = scene->contact != CONTACT_NONE;
-    if ((scene->bare_names || has_contact) && !open_named(&history->contact, scene, folder, "_contact.dat", "ContforcPlot.dat"))
+    if ((scene->bare_names || has_contact) && !open_named(&history->contact, scene, folder, "_contact.dat", "ContforcPlot.dat", mode))
         return false;
+    if (mode == TABLE_CONTINUED)
+        return true;
     write_curve_header(history, scene);
     if (!scene->bare_headers) {
-        fprintf(history->energy.stream, "VARIABLES = \"Time\" \"total\" \"kinetic\" \"internal\"\n");
-        fprintf(history->momentum.stream, "VARIABLES = \"Time\" \"px\" \"py\" \"pz\"\n");
+        write_header(&history->energy, "\"Time\" \"total\" \"kinetic\" \"internal\"");
+        write_header(&history->momentum, "\"Time\" \"px\" \"py\" \"pz\"");
         if (has_contact)
-            fprintf(history->contact.stream, "VARIABLES = \"Time\" \"fx\" \"fy\" \"fz\"\n");
+            write_header(&history->contact, "\"Time\" \"fx\" \"fy\" \"fz\"");
     }
     return true;
 }
@@ -61,7 +71,7 @@ static void write_line(struct table *table, const double *values, int count)
 {
     for (int i = 0; i < count; i++)
         table_real(table, values[i]);
-    fputc('\n', table->stream);
+    table_end_line(table);
 }
 
 void history_step(struct history *history, const struct scene *scene, const struct result_source *source,
@@ -72,7 +82,7 @@ void history_step(struct history *history, const struct scene *scene, const stru
     table_real(&history->curves, totals->internal);
     for (size_t i = 0; i < scene->n_curves; i++)
         table_real(&history->curves, curve_value(&scene->curves[i], source, totals));
-    fputc('\n', history->curves.stream);
+    table_end_line(&history->curves);
     write_line(&history->energy,
                (double[]){totals->time, totals->kinetic + totals->internal, totals->kinetic, totals->internal}, 4);
     write_line(&history->momentum,

@@ -15,8 +15,8 @@ struct history {
     struct table curves, energy, momentum, contact;
 };
 
-/* Creates the files of the scene in `folder` and writes their headers. */
-bool history_open(struct history *history, const struct scene *scene, const char *folder);
+/* Opens the files of the scene in `folder`; writes the headers of new ones. */
+bool history_open(struct history *history, const struct scene *scene, const char *folder, enum table_mode mode);
 
 /* Writes one line to each. */
 void history_step(struct history *history, const struct scene *scene, const struct result_source *source,

@@ -8,9 +8,15 @@
 
 static const double INTERVAL = 0.2;
 
-void progress_open(struct progress *progress, bool wanted)
+static double part_done(double time, double end_time)
 {
-    *progress = (struct progress){.is_on = wanted && isatty(STDERR_FILENO)};
+    double done = end_time > 0 ? time / end_time : 1;
+    return done > 1 ? 1 : done;
+}
+
+void progress_open(struct progress *progress, bool wanted, double time, double end_time)
+{
+    *progress = (struct progress){.is_on = wanted && isatty(STDERR_FILENO), .from = part_done(time, end_time)};
     progress->started = progress->shown = threads_clock();
 }
 
@@ -22,9 +28,8 @@ void progress_show(struct progress *progress, long step, double time, double end
     if (now - progress->shown < INTERVAL)
         return;
     progress->shown = now;
-    double done = end_time > 0 ? time / end_time : 1;
-    done = done > 1 ? 1 : done;
-    double left = done > 0 ? (now - progress->started) * (1 - done) / done : 0;
+    double done = part_done(time, end_time), gained = done - progress->from;
+    double left = gained > 0 ? (now - progress->started) * (1 - done) / gained : 0;
     fprintf(stderr, "\r%3.0f %%  step %ld  time %.4g of %.4g  about %.0f s left   ", 100 * done, step, time, end_time, left);
     fflush(stderr);
 }

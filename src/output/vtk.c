@@ -330,7 +330,7 @@ static bool write_particles(const struct scene *scene, const struct result_sourc
     return close_part(writer.stream, name, part);
 }
 
-static bool write_list(const struct vtk_series *series)
+bool vtk_write_list(const struct vtk_series *series)
 {
     char *name = file_name(series, "_anim.pvd"), *part;
     FILE *stream = open_part(name, &part);
@@ -359,6 +359,13 @@ void vtk_close(struct vtk_series *series)
     memory_free(series->times);
 }
 
+double *vtk_resume(struct vtk_series *series, size_t count)
+{
+    series->times = memory_grow(series->times, &series->capacity, count, sizeof *series->times, "output");
+    series->count = count;
+    return series->times;
+}
+
 bool vtk_write(struct vtk_series *series, const struct scene *scene, const struct result_source *source, double time)
 {
     char ending[40];
@@ -368,7 +375,7 @@ bool vtk_write(struct vtk_series *series, const struct scene *scene, const struc
     char *name = file_name(series, ending);
     bool good = write_particles(scene, source, name);
     memory_free(name);
-    return good && write_list(series);
+    return good && vtk_write_list(series);
 }
 
 /* --- the background grid --- */

@@ -20,6 +20,12 @@ void vtk_close(struct vtk_series *series);
 /* Writes the next file and the list. False, after a message, when a file could not be written. */
 bool vtk_write(struct vtk_series *series, const struct scene *scene, const struct result_source *source, double time);
 
+/* Goes on behind the first `count` files: returns the room for their times. */
+double *vtk_resume(struct vtk_series *series, size_t count);
+
+/* Writes the list of the files, as vtk_write does. */
+bool vtk_write_list(const struct vtk_series *series);
+
 /* Writes the background grid as job_Grid.vtu: nodes and cells (voxels). */
 bool vtk_write_grid(const struct vtk_series *series, const struct scene *scene);
 

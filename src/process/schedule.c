@@ -250,6 +250,15 @@ size_t schedule_due(struct schedule *schedule, long step)
     return n;
 }
 
+bool schedule_skip(struct schedule *schedule, size_t opened)
+{
+    while (opened > 0 && schedule->next < schedule->n_openings && schedule->openings[schedule->next] <= opened) {
+        opened -= schedule->openings[schedule->next];
+        schedule->left -= schedule->openings[schedule->next++];
+    }
+    return opened == 0;
+}
+
 size_t schedule_left(const struct schedule *schedule)
 {
     return schedule->left;

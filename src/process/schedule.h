@@ -27,6 +27,9 @@ long schedule_next_step(const struct schedule *schedule);
 /* The step of the last opening; 0 without a schedule. */
 long schedule_last_step(const struct schedule *schedule);
 
+/* Goes to where `opened` particles have opened since the start; false when that is between two openings. */
+bool schedule_skip(struct schedule *schedule, size_t opened);
+
 /* Particles that are still to open. */
 size_t schedule_left(const struct schedule *schedule);
 

@@ -114,6 +114,13 @@ size_t heat_count(const struct heat *heat)
     return heat->count;
 }
 
+int32_t *heat_ids(struct heat *heat, size_t count)
+{
+    heat->ids = memory_grow(heat->ids, &heat->capacity, count, sizeof *heat->ids, "the hot zone");
+    heat->count = count;
+    return heat->ids;
+}
+
 static double heat_strain(const struct scene_transformation *t)
 {
     double strain = t->has_heat ? t->expansion * t->temperature : 0;

@@ -35,4 +35,7 @@ double heat_switch_on(struct heat *heat, const struct scene *scene, struct store
 /* Particles in the zone; 0 when it is off. */
 size_t heat_count(const struct heat *heat);
 
+/* Sets their number; returns the room for their ids, where those of fewer stay as they are. */
+int32_t *heat_ids(struct heat *heat, size_t count);
+
 #endif

@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a run is between two steps: particles, who is where, numbers that go on. All else follows from the deck
+ * or is made anew in each step. */
+#include "base/checkpoint.h"
+#include "mpm/mpm.h"
+
+#include <string.h>
+
+#define FIELD(name) {#name, offsetof(struct mpm, name), sizeof(((struct mpm *)NULL)->name)}
+
+/* Numbers that a step takes from the one before. */
+static const struct {
+    const char *name;
+    size_t offset, size;
+} fields[] = {
+    FIELD(step),
+    FIELD(time),
+    FIELD(time_step),
+    FIELD(first_time_step),
+    FIELD(sums),
+    FIELD(contact_force),
+    FIELD(start_energy),
+    FIELD(external_work),
+    FIELD(removed_energy),
+    FIELD(unbalanced),
+    FIELD(previous_kinetic),
+    FIELD(start_momentum),
+};
+
+static void exchange_fields(struct mpm *mpm, struct checkpoint *checkpoint)
+{
+    for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
+        checkpoint_item(checkpoint, fields[i].name, (char *)mpm + fields[i].offset, fields[i].size, 1);
+}
+
+/* Ids give the places; false when one is there twice, or a body that does not exist. */
+static bool index_particles(const struct mpm *mpm)
+{
+    struct store *store = mpm->store;
+    for (size_t p = 0; p < store->count; p++)
+        store->index_of_id[p] = -1;
+    for (size_t p = 0; p < store->count; p++) {
+        const int32_t id = store->integer[COLUMN_ID][p], body = store->integer[COLUMN_BODY][p];
+        if (id < 0 || (size_t)id >= store->count || store->index_of_id[id] >= 0)
+            return false;
+        if (body < 0 || (size_t)body >= mpm->scene->n_bodies)
+            return false;
+        store->index_of_id[id] = (int32_t)p;
+    }
+    return true;
+}
+
+/* Columns in the order of memory. */
+static void exchange_particles(struct mpm *mpm, struct checkpoint *checkpoint)
+{
+    const struct store *store = mpm->store;
+    for (int c = COLUMN_NONE + 1; c < COLUMN_COUNT; c++) {
+        const struct column_row *row = column_row((enum column)c);
+        if (store->integer[c])
+            checkpoint_item(checkpoint, row->name, store->integer[c], sizeof(int32_t), store->count);
+        for (int a = 0; a < row->components && store->real[c][a]; a++)
+            checkpoint_item(checkpoint, row->name, store->real[c][a], sizeof(double), store->count);
+    }
+    if (checkpoint_is_reading(checkpoint) && checkpoint_is_good(checkpoint) && !index_particles(mpm))
+        checkpoint_reject(checkpoint, "ids and bodies");
+}
+
+static void swap_columns(struct store *store, enum column first, enum column second)
+{
+    for (int a = 0; a < 3; a++) {
+        double *column = store->real[first][a];
+        store->real[first][a] = store->real[second][a];
+        store->real[second][a] = column;
+    }
+}
+
+/* Cells follow from the places; with TLmp, where they stay, from the initial ones. */
+static void find_cells(struct mpm *mpm)
+{
+    if (mpm->is_total)
+        swap_columns(mpm->store, COLUMN_POSITION, COLUMN_INITIAL_POSITION);
+    cell_list_build(mpm->cells, mpm->store);
+    if (mpm->is_total)
+        swap_columns(mpm->store, COLUMN_POSITION, COLUMN_INITIAL_POSITION);
+    grid_follow(mpm->grid);
+    if (mpm->centres)
+        grid_follow(mpm->centres);
+}
+
+/* Who takes part, and the particles that left the grid in the order in which they did. */
+static void exchange_cells(struct mpm *mpm, struct checkpoint *checkpoint)
+{
+    struct cell_list *cells = mpm->cells;
+    const bool is_reading = checkpoint_is_reading(checkpoint);
+    cells->count = (int32_t)checkpoint_count(checkpoint, "particles that take part", (size_t)cells->count, mpm->store->count);
+    double moved = cells->moved;
+    if (checkpoint_item(checkpoint, "moved", &moved, sizeof moved, 1) && is_reading) {
+        find_cells(mpm);
+        cells->moved = moved;
+    }
+    const int32_t lost = cells->count - cells->in_cells;
+    checkpoint_item(checkpoint, "lost particles", cells->order + cells->in_cells, sizeof *cells->order, (size_t)lost);
+    for (int32_t k = cells->in_cells; k < cells->count && is_reading; k++)
+        if (cells->order[k] < 0 || cells->order[k] >= cells->count || cells->cell[cells->order[k]] != CELL_NONE)
+            checkpoint_reject(checkpoint, "lost particles");
+}
+
+void mpm_exchange(struct mpm *mpm, struct checkpoint *checkpoint)
+{
+    exchange_fields(mpm, checkpoint);
+    exchange_particles(mpm, checkpoint);
+    exchange_cells(mpm, checkpoint);
+    building_exchange(mpm, checkpoint);
+}
