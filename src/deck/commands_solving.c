@@ -202,6 +202,24 @@ static void read_kinetic_damping(struct reader *reader, const struct deck_word *
     reader->scene->kinetic_damping = true;
 }
 
+static void read_nodal_damping(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    static const struct argument second[] = {{"after", "force*time/length", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}};
+    double *damping = reader->scene->nodal_damping;
+    struct value after[2];
+    (void)word;
+    damping[0] = damping[1] = values[0].real;
+    if (!reader_at_line_end(reader) && reader_values(reader, second, "ndam", after))
+        damping[1] = after[0].real;
+}
+
+static void read_small(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)values;
+    reader->small_place = word->place;
+    reader->scene->is_small = true;
+}
+
 static void note_mass_scale(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     (void)values;
@@ -237,8 +255,9 @@ const struct keyword solving_keywords[] = {
      .arguments = (const struct argument[]){{"rate", "1/time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
      .field = offsetof(struct scene, damping), .doc = "damping force -rate * mass * velocity on each particle"},
     {.name = "ndam", .arguments = (const struct argument[]){{"factor", "force*time/length", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
-     .field = offsetof(struct scene, nodal_damping),
-     .doc = "damping force -factor * velocity on each grid node, whatever its mass; stable for any factor"},
+     .apply = read_nodal_damping,
+     .doc = "damping force -factor * velocity on each grid node, whatever its mass; stable for any factor; `ndam c1 c2`: c2 "
+            "from the last opening on"},
     {.name = "mscl", .arguments = (const struct argument[]){{"factor", NULL, ARGUMENT_REAL, LIMIT_POSITIVE}, {0}},
      .field = offsetof(struct scene, mass_scale), .apply = note_mass_scale,
      .doc = "all masses times a factor, for larger steps where inertia does not matter; weight stays (1)"},
@@ -270,6 +289,8 @@ const struct keyword solving_keywords[] = {
     {.name = "bimp", .apply = read_bimp, .doc = "quadratic B-spline shape functions"},
     {.name = "sgmp", .apply = read_staggered, .doc = "staggered grid: stress and strain at cell centres, against locking"},
     {.name = "TLmp", .apply = read_total, .doc = "total Lagrangian formulation; neoh only, alone or with sgmp"},
+    {.name = "smal", .long_name = "small", .apply = read_small,
+     .doc = "small displacements: forces and strains at the initial places, volumes stay; positions only show where particles are"},
     {.name = "UVFp", .apply = read_deformation, .doc = "particle volume from the deformation gradient"},
     {.name = "cont", .long_name = "contact",
      .arguments = (const struct argument[]){{"lagr|othe", NULL, ARGUMENT_WORD, LIMIT_NONE},
@@ -293,6 +314,21 @@ static void check_contact(struct reader *reader)
                           "'cont' does not go with 'sgmp'; take gimp or bimp");
     if (scene->is_total)
         diagnostics_error(reader->diagnostics, reader->contact_place, "'cont' does not go with 'TLmp'");
+}
+
+static void check_small(struct reader *reader)
+{
+    const struct scene *scene = reader->scene;
+    const struct deck_place place = reader->small_place;
+    if (scene->interpolation != INTERPOLATION_LINEAR || scene->is_total)
+        diagnostics_error(reader->diagnostics, place, "'smal' does not go with 'gimp', 'bimp', 'sgmp' or 'TLmp'");
+    if (scene->contact != CONTACT_NONE || scene->tracks_deformation)
+        diagnostics_error(reader->diagnostics, place, "'smal' does not go with '%s'", scene->tracks_deformation ? "UVFp" : "cont");
+    for (size_t i = 0; i < scene->n_materials; i++) {
+        const struct law *law = scene->materials[i].material.law;
+        if (scene->materials[i].is_given && (law->needs_eos || !law->rotates))
+            diagnostics_error(reader->diagnostics, place, "'smal' does not go with '%s', whose stress follows the volume", law->name);
+    }
 }
 
 static void check_total(struct reader *reader)
@@ -340,6 +376,8 @@ void reader_finish_solving(struct reader *reader)
         check_contact(reader);
     if (scene->is_total)
         check_total(reader);
+    if (scene->is_small)
+        check_small(reader);
     if (scene->finds_equilibrium)
         check_equilibrium(reader);
     if (scene->transfer == TRANSFER_AFFINE && scene->interpolation != INTERPOLATION_LINEAR)

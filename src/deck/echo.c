@@ -88,6 +88,10 @@ static void echo_solving(const struct scene *scene, FILE *stream)
         fprintf(stream, "TLmp\n");
     if (scene->tracks_deformation)
         fprintf(stream, "UVFp\n");
+    if (scene->is_small)
+        fprintf(stream, "smal\n");
+    if (scene->nodal_damping[0] > 0 || scene->nodal_damping[1] > 0)
+        print_line(stream, "ndam", scene->nodal_damping, 2);
     if (scene->kinetic_damping)
         fprintf(stream, "drda\n");
     if (scene->finds_equilibrium) {

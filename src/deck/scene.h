@@ -146,13 +146,14 @@ struct scene {
     long contact_normal;     /* 0 both components', 1 the first's, 2 the second's */
     bool contact_joins;      /* cont ... join: nodes in contact strain both sides with one normal velocity */
     bool is_total;           /* TLmp */
+    bool is_small;           /* smal: displacements change neither places nor volumes in the equations */
     bool tracks_deformation; /* UVFp: volume from the deformation gradient */
     double loading_time;     /* QuLo: loads grow up to this time; 0: at once */
     double settling[2];      /* QuLo: least end time, latest end time */
     double bulk[2]; /* artificial viscosity: quadratic, linear */
     double damping; /* mass proportional, 1/time */
     bool kinetic_damping;
-    double nodal_damping;    /* ndam: force per velocity on each node */
+    double nodal_damping[2]; /* ndam: force per velocity on each node; the second holds after the last opening */
     double mass_scale;       /* mscl */
     double fixed_step;       /* dtfx; 0: the stable one */
     bool finds_equilibrium;       /* quas: the run goes from equilibrium to equilibrium */

@@ -69,6 +69,13 @@ static void take_energy(struct mpm *mpm, double energy)
     mpm->external_work += energy;
 }
 
+/* `ndam` may have another factor for the time when all is open. */
+static void choose_damping(struct mpm *mpm)
+{
+    if (mpm->schedule && schedule_last_step(mpm->schedule) > 0)
+        mpm->grid->damping = mpm->scene->nodal_damping[schedule_left(mpm->schedule) == 0];
+}
+
 /* Lets the next n closed particles take part; what they hold counts as work done on the run. */
 static void admit(struct mpm *mpm, int32_t n)
 {
@@ -92,6 +99,7 @@ static void admit(struct mpm *mpm, int32_t n)
         mpm->external_work += 0.5 * mass * square;
         take_energy(mpm, store->real[COLUMN_ENERGY][0][p]);
     }
+    choose_damping(mpm);
     grid_follow(mpm->grid);
     if (mpm->centres)
         grid_follow(mpm->centres);
@@ -132,6 +140,7 @@ void building_exchange(struct mpm *mpm, struct checkpoint *checkpoint)
         checkpoint_reject(checkpoint, "open particles");
     for (size_t p = 0; p < count && mpm->scene->building.has_ghosts; p++)
         note_material(mpm, p);
+    choose_damping(mpm);
 }
 
 bool building_has_settled(const struct mpm *mpm, long step)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mpm/equilibrium.h"
+#include "base/checkpoint.h"
 #include "base/conjugate.h"
 #include "base/memory.h"
 #include "base/vector.h"
@@ -91,6 +92,11 @@ void equilibrium_close(struct equilibrium *equilibrium)
         memory_free(equilibrium->deviator[i]);
     memory_free(equilibrium->softening);
     memory_free(equilibrium);
+}
+
+void equilibrium_exchange(struct mpm *mpm, struct checkpoint *checkpoint)
+{
+    checkpoint_item(checkpoint, "largest unbalanced forces", &mpm->equilibrium->reference, sizeof mpm->equilibrium->reference, 1);
 }
 
 const struct equilibrium_report *equilibrium_report(const struct mpm *mpm)
@@ -374,7 +380,7 @@ static void release_cells(struct mpm *mpm)
             const int32_t p = mpm->cells->order[k];
             double most = 0;
             for (int a = 0; a < 3; a++) {
-                double local = (mpm->store->real[COLUMN_POSITION][a][p] - chunk_cell_low(mpm, &chunk, mpm->cells->cell[p], a)) / size;
+                double local = (mpm->store->real[mpm->place][a][p] - chunk_cell_low(mpm, &chunk, mpm->cells->cell[p], a)) / size;
                 most = fmax(most, fmax(-local, local - 1));
             }
             report->kept_particles += most > 0;
@@ -530,6 +536,7 @@ enum equilibrium_state mpm_equilibrate(struct mpm *mpm)
     equilibrium->report = (struct equilibrium_report){.particle = -1};
     equilibrium->is_singular = equilibrium->is_soft = false;
     mpm->step++;
+    mpm->updates += mpm->cells->count;
     mpm->load_factor = 1;
     mpm->moves_last = true;
     /* a power of two, so that displacements come back as they were, and so long that nothing has a rate */

@@ -46,6 +46,9 @@ enum equilibrium_state mpm_equilibrate(struct mpm *mpm);
 const struct equilibrium_report *equilibrium_report(const struct mpm *mpm);
 struct instability equilibrium_check(const struct mpm *mpm);
 
+/* What the next search takes from those before it. */
+void equilibrium_exchange(struct mpm *mpm, struct checkpoint *checkpoint);
+
 /* Applications of the stiffness to vectors since the start, and the seconds that the linear systems took. */
 void equilibrium_cost(const struct mpm *mpm, long *applications, double *seconds);
 

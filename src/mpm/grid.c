@@ -150,7 +150,7 @@ void grid_follow(struct grid *grid)
     size_t blocks = (size_t)cells->n_blocks;
     grid->node = replace(grid->node, &grid->node_capacity, blocks * (size_t)grid->fields * BLOCK_CELLS);
     grid->patch = replace(grid->patch, &grid->patch_capacity, (size_t)cells->active * (size_t)grid->patch_fields * (size_t)grid->layout.nodes);
-    if (grid->damping > 0)
+    if (grid->may_damp)
         grid->damped = memory_grow(grid->damped, &grid->damped_capacity, blocks, sizeof *grid->damped, "grid nodes");
     grid->fixed = memory_grow(grid->fixed, &grid->fixed_capacity, blocks * BLOCK_CELLS, 1, "grid nodes");
 #pragma omp parallel for schedule(static)

@@ -29,6 +29,7 @@ struct grid {
     int boundary_layers; /* the codes act on this many outermost node layers */
     double mass_cutoff;
     double damping; /* force per velocity on each node */
+    bool may_damp;  /* at some time */
     const struct scene_hold *holds; /* of the scene */
     size_t n_holds;
     double *node;   /* [block][fields][64] */

@@ -132,7 +132,7 @@ void motion_move(struct mpm *mpm, const struct chunk *chunk)
             x[j] += velocity[j] * step;
         chunk_write(chunk, mpm->store->real[COLUMN_POSITION][a], x);
     }
-    if (mpm->is_total || mpm->keeps_cells)
+    if (mpm->place != COLUMN_POSITION || mpm->keeps_cells)
         return;
     find_cells(mpm, chunk, position);
     uint8_t *cell = mpm->cells->cell;

@@ -32,6 +32,8 @@ static uint64_t wanted_columns(const struct scene *scene)
     for (size_t i = 0; i < scene->n_loads; i++)
         if (scene->loads[i].kind != LOAD_GRAVITY && scene->loads[i].kind != LOAD_FACE)
             wanted |= column_bit(COLUMN_LOAD);
+    if (scene->is_small)
+        wanted |= column_bit(COLUMN_INITIAL_POSITION);
     if (scene->tracks_deformation || scene->is_total)
         wanted |= column_bit(COLUMN_DEFORMATION);
     if (scene->smooths_pressure && scene->writes_vtk)
@@ -249,7 +251,8 @@ static void create_cells(struct mpm *mpm)
     };
     mpm->grid = grid_open(mpm->cells, form, scene->boundary, scene->mass_cutoff);
     grid_hold(mpm->grid, scene->holds, scene->n_holds);
-    mpm->grid->damping = scene->nodal_damping;
+    mpm->grid->damping = scene->nodal_damping[0];
+    mpm->grid->may_damp = scene->nodal_damping[0] > 0 || scene->nodal_damping[1] > 0;
     grid_follow(mpm->grid);
     if (mpm->shape->open_centres) {
         mpm->centres = mpm->shape->open_centres(mpm);
@@ -324,13 +327,13 @@ struct mpm *mpm_open(struct scene *scene, struct timers *timers, struct diagnost
     mpm->shape = shapes[scene->interpolation];
     mpm->load_factor = 1;
     mpm->is_total = scene->is_total;
-    mpm->place = scene->is_total ? COLUMN_INITIAL_POSITION : COLUMN_POSITION;
+    mpm->place = scene->is_total || scene->is_small ? COLUMN_INITIAL_POSITION : COLUMN_POSITION;
     mpm->straining_field = scene->scheme == SCHEME_USL ? NODE_MOMENTUM : NODE_STRAINING;
     mpm->strains_at_once = scene->scheme == SCHEME_USL && scene->transfer == TRANSFER_FLIP && mpm->shape == &shape_linear;
     mpm->step_scale = scene->step_scale;
     mpm->moves_last = scene->scheme != SCHEME_USF;
     mpm->damps_kinetic = scene->kinetic_damping;
-    mpm->rotate = rotations[scene->rotation];
+    mpm->rotate = scene->is_small ? NULL : rotations[scene->rotation];
     contact_open(mpm);
     create_bodies(mpm);
     create_particles(mpm);

@@ -8,7 +8,7 @@
 void smoothing_start(struct mpm *mpm)
 {
     struct store *store = mpm->store;
-    if (!mpm->smooths || !mpm->shape->smooths_at_start || mpm->is_total)
+    if (!mpm->smooths || !mpm->shape->smooths_at_start || mpm->place != COLUMN_POSITION)
         return;
     for (int a = 0; a < 3; a++)
         memcpy(store->real[COLUMN_START_POSITION][a], store->real[COLUMN_POSITION][a], store->count * sizeof(double));
@@ -19,7 +19,7 @@ void smoothing_finish(struct mpm *mpm)
     const enum column place = mpm->place;
     if (!mpm->smooths)
         return;
-    if (mpm->shape->smooths_at_start && !mpm->is_total)
+    if (mpm->shape->smooths_at_start && mpm->place == COLUMN_POSITION)
         mpm->place = COLUMN_START_POSITION;
     mpm_each_block(mpm, mpm->shape->smooth_give);
     if (mpm->shape->smooth_nodes)

@@ -2,7 +2,7 @@
 /* What a run is between two steps: particles, who is where, numbers that go on. All else follows from the deck
  * or is made anew in each step. */
 #include "base/checkpoint.h"
-#include "mpm/mpm.h"
+#include "mpm/equilibrium.h"
 
 #include <string.h>
 
@@ -74,13 +74,13 @@ static void swap_columns(struct store *store, enum column first, enum column sec
     }
 }
 
-/* Cells follow from the places; with TLmp, where they stay, from the initial ones. */
+/* Cells follow from the places; with TLmp and smal, where they stay, from the initial ones. */
 static void find_cells(struct mpm *mpm)
 {
-    if (mpm->is_total)
+    if (mpm->place != COLUMN_POSITION)
         swap_columns(mpm->store, COLUMN_POSITION, COLUMN_INITIAL_POSITION);
     cell_list_build(mpm->cells, mpm->store);
-    if (mpm->is_total)
+    if (mpm->place != COLUMN_POSITION)
         swap_columns(mpm->store, COLUMN_POSITION, COLUMN_INITIAL_POSITION);
     grid_follow(mpm->grid);
     if (mpm->centres)
@@ -111,4 +111,6 @@ void mpm_exchange(struct mpm *mpm, struct checkpoint *checkpoint)
     exchange_particles(mpm, checkpoint);
     exchange_cells(mpm, checkpoint);
     building_exchange(mpm, checkpoint);
+    if (mpm->equilibrium)
+        equilibrium_exchange(mpm, checkpoint);
 }

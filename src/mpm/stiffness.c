@@ -94,7 +94,7 @@ static void block_moments(struct stiffness *stiffness, const struct mpm *mpm, co
             const int32_t p = mpm->cells->order[block->first + k];
             double local[3], weight = store->real[COLUMN_VOLUME][0][p] * square;
             for (int a = 0; a < 3; a++)
-                local[a] = (store->real[COLUMN_POSITION][a][p] - low[a]) * inverse - 0.5;
+                local[a] = (store->real[mpm->place][a][p] - low[a]) * inverse - 0.5;
             add_powers(sum[0], local, weight);
             if (stiffness->sets == 1)
                 continue;
@@ -543,7 +543,7 @@ double stiffness_strains(const struct mpm *mpm, const struct stiffness *stiffnes
             const int32_t p = mpm->cells->order[block->first + k];
             double local[3], g[3][3];
             for (int a = 0; a < 3; a++)
-                local[a] = (mpm->store->real[COLUMN_POSITION][a][p] - chunk_cell_low(mpm, &chunk, c, a)) * inverse - 0.5;
+                local[a] = (mpm->store->real[mpm->place][a][p] - chunk_cell_low(mpm, &chunk, c, a)) * inverse - 0.5;
             gradient_at(u, c % BLOCK_EDGE, local, inverse, g);
             for (int i = 0; i < 9; i++)
                 largest = fmax(largest, fabs(g[i / 3][i % 3]));

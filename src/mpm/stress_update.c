@@ -5,6 +5,8 @@
 #include "material/eos.h"
 #include "mpm/chunk.h"
 
+#include <string.h>
+
 #include <math.h>
 
 /* The columns that an update may change, each with its pointers in the batch. A scene has those of
@@ -235,6 +237,8 @@ void stress_update(struct mpm *mpm, const struct chunk *chunk)
     } else {
         if (batch.deformation[0])
             change_deformation(chunk->workspace, &batch);
+        else if (mpm->scene->is_small)
+            memcpy(chunk->workspace->volume_before, batch.volume, (size_t)chunk->count * sizeof *batch.volume);
         else
             change_volume(chunk->workspace, batch.volume, chunk->count);
         advance_runs(mpm, chunk, &batch);
