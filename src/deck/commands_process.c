@@ -28,13 +28,6 @@ static void expect(struct reader *reader, const char *owner, const char *expecte
     reader_skip_line(reader);
 }
 
-/* Whether a word stands behind the last one on its line that begins no command. */
-static bool has_more(struct reader *reader)
-{
-    struct deck_word word;
-    return !reader_at_line_end(reader) && text_peek(reader->text, &word) && !reader_is_keyword(&word);
-}
-
 /* --- closed particles --- */
 
 /* GPD id value, or GPD id1 id2 value: a third number stands on the same line. */
@@ -43,7 +36,7 @@ static void read_ghost(struct reader *reader, const struct deck_word *word, cons
     static const struct argument third[] = {FLAG("value"), {0}};
     struct scene_building *building = &reader->scene->building;
     struct value last[2] = {values[1]};
-    bool is_range = has_more(reader);
+    bool is_range = reader_has_more(reader);
     (void)word;
     if (is_range && !reader_values(reader, third, "GPD", last))
         return;
@@ -77,7 +70,7 @@ void reader_ghosts(struct reader *reader, const struct deck_word *word, const st
         building->shows_ghosts = true;
         return;
     }
-    if (has_more(reader)) {
+    if (reader_has_more(reader)) {
         expect(reader, "Ghost", "'show', or lines 'GPD id value' and 'endG'");
         return;
     }
@@ -166,7 +159,7 @@ void reader_build(struct reader *reader, const struct deck_word *word, const str
     }
     building->axis = axis;
     building->thickness = 0;
-    if (!reader_at_line_end(reader) && reader_values(reader, thickness, "buil", value))
+    if (reader_has_more(reader) && reader_values(reader, thickness, "buil", value))
         building->thickness = value[0].real;
 }
 
@@ -184,13 +177,13 @@ void reader_scan(struct reader *reader, const struct deck_word *word, const stru
         building->order = (enum scan_order)order;
         building->is_serpentine = order == SCAN_RASTER && reader_optional(reader, serpentine) == 0;
     }
-    if (order < 0 && reader_at_line_end(reader)) {
+    if (order < 0 && !reader_has_more(reader)) {
         expect(reader, "scan", "angles, deck or raster");
         return;
     }
-    if (!reader_at_line_end(reader))
+    if (reader_has_more(reader))
         building->n_angles = 0;
-    while (!reader_at_line_end(reader)) {
+    while (reader_has_more(reader)) {
         if (!reader_values(reader, angle, "scan", value))
             return;
         building->angles = memory_grow(building->angles, &building->angles_capacity, building->n_angles + 1, sizeof(double), "scan");
@@ -252,7 +245,7 @@ void reader_heat(struct reader *reader, const struct deck_word *word, const stru
 {
     static const char *const signs[] = {"heat", "cool", NULL};
     int sign = reader_optional(reader, signs);
-    if (sign < 0 && has_more(reader))
+    if (sign < 0 && reader_has_more(reader))
         expect(reader, "ther", "heat or cool");
     struct scene_transformation *entry = transformation_of(reader, word, &values[0]);
     if (!entry)

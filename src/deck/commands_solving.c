@@ -191,7 +191,7 @@ static void read_equilibrium(struct reader *reader, const struct deck_word *word
     scene->equilibrium_tolerance = values[0].real;
     scene->equilibrium_steps = 50;
     reader->equilibrium_place = word->place;
-    if (!reader_at_line_end(reader) && reader_values(reader, steps, "quas", value))
+    if (reader_has_more(reader) && reader_values(reader, steps, "quas", value))
         scene->equilibrium_steps = value[0].integer;
 }
 
@@ -209,7 +209,7 @@ static void read_nodal_damping(struct reader *reader, const struct deck_word *wo
     struct value after[2];
     (void)word;
     damping[0] = damping[1] = values[0].real;
-    if (!reader_at_line_end(reader) && reader_values(reader, second, "ndam", after))
+    if (reader_has_more(reader) && reader_values(reader, second, "ndam", after))
         damping[1] = after[0].real;
 }
 

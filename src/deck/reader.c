@@ -143,6 +143,12 @@ bool reader_is_keyword(const struct deck_word *word)
         || keyword_in(solid_keywords, text) || keyword_in(ghost_keywords, text) || block_of_end(text);
 }
 
+bool reader_has_more(struct reader *reader)
+{
+    struct deck_word word;
+    return !reader_at_line_end(reader) && text_peek(reader->text, &word) && !reader_is_keyword(&word);
+}
+
 /* Whether a word is a command in its full spelling; a file or a name may begin like one. */
 static bool is_command(const struct deck_word *word)
 {

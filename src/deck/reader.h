@@ -65,6 +65,9 @@ void reader_skip_numbers(struct reader *reader);
 /* Whether the next word begins a line, or there is none. */
 bool reader_at_line_end(struct reader *reader);
 
+/* Whether a word stands behind the last one on its line that begins no command: a further argument. */
+bool reader_has_more(struct reader *reader);
+
 /* Whether the deck has used this command before, as far as can be said. */
 bool reader_was_given(const struct reader *reader, const char *name);
 
