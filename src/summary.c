@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "summary.h"
 #include "base/threads.h"
+#include "process/schedule.h"
 #include "mpm/equilibrium.h"
 
 #include <math.h>
@@ -154,5 +155,12 @@ void summary_end(const struct mpm *mpm, const struct timers *timers, double seco
         print_systems(mpm, stream);
     fprintf(stream, "%s after %ld steps at time %.6E: ", ending, mpm->step, mpm->time);
     print_lost(mpm, stream);
-    fprintf(stream, ", energy balance %.1e, momentum change %.1e\n", mpm_energy_error(mpm), momentum_change(mpm));
+    if (mpm->scene->finds_equilibrium) /* motion is left out, and with it the balance of its energy */
+        fprintf(stream, "\n");
+    else
+        fprintf(stream, ", energy balance %.1e, momentum change %.1e\n", mpm_energy_error(mpm), momentum_change(mpm));
+    const size_t closed = mpm->schedule ? schedule_left(mpm->schedule) : 0;
+    if (closed > 0)
+        fprintf(stream, "%zu particles are still to open: the run ends before step %ld, that of the last opening\n", closed,
+                schedule_last_step(mpm->schedule));
 }

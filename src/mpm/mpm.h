@@ -218,6 +218,9 @@ void building_exchange(struct mpm *mpm, struct checkpoint *checkpoint);
 /* Whether `open settle` ends the run behind a step. */
 bool building_has_settled(const struct mpm *mpm, long step);
 
+/* Warns of bodies that lie in each other at the start. */
+void overlap_warn(const struct mpm *mpm, struct diagnostics *diagnostics);
+
 /* Face tractions (load face). */
 void faces_open(struct mpm *mpm);
 void faces_close(struct mpm *mpm);

@@ -343,6 +343,7 @@ struct mpm *mpm_open(struct scene *scene, struct timers *timers, struct diagnost
     find_near_particles(mpm, scene, diagnostics);
     create_cells(mpm);
     warn_of_outsiders(mpm, diagnostics);
+    overlap_warn(mpm, diagnostics);
     faces_open(mpm);
     mpm->n_workspaces = threads_available();
     mpm->workspaces = memory_array((size_t)mpm->n_workspaces, sizeof *mpm->workspaces, "threads");
