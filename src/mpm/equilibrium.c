@@ -43,7 +43,8 @@ struct equilibrium {
     double *force, *right, *displacement; /* vectors on the nodes: [block][3][64] */
     size_t force_capacity, right_capacity, displacement_capacity;
     double *copy[SAVED][COLUMN_COMPONENTS]; /* the particles before a step */
-    double *deviator[6], *softening; /* with laws that are not elastic: strains of a step; what is left of the shear modulus */
+    double *deviator[6]; /* with laws that are not elastic: the particles' strains in a step, */
+    double *softening;   /* and what is left of their shear moduli */
     double reference;
     double limit;    /* the search ends where the forces' length is not above */
     double size;     /* present length of the unbalanced forces */
@@ -330,8 +331,8 @@ static double largest_way(const struct mpm *mpm)
     return largest / mpm->cells->frame.size;
 }
 
-/* Moves by the displacements found, or by less while the forces grow and so does the energy. Energy that a motion there would lose:
- * the work of the unbalanced forces, whose mean is half the sum of those before and after. */
+/* Moves by the displacements found, or by less while the forces grow and so does the energy. Energy that a motion
+ * there would lose: the work of the unbalanced forces, whose mean is half the sum of those before and after. */
 static bool take_step(struct mpm *mpm, int *crossing)
 {
     struct equilibrium *equilibrium = mpm->equilibrium;
@@ -380,7 +381,8 @@ static void release_cells(struct mpm *mpm)
             const int32_t p = mpm->cells->order[k];
             double most = 0;
             for (int a = 0; a < 3; a++) {
-                double local = (mpm->store->real[mpm->place][a][p] - chunk_cell_low(mpm, &chunk, mpm->cells->cell[p], a)) / size;
+                const double low = chunk_cell_low(mpm, &chunk, mpm->cells->cell[p], a);
+                const double local = (mpm->store->real[mpm->place][a][p] - low) / size;
                 most = fmax(most, fmax(-local, local - 1));
             }
             report->kept_particles += most > 0;
@@ -403,7 +405,7 @@ static void search(struct mpm *mpm)
     while (equilibrium->size > equilibrium->limit) {
         if (report->newton_steps == mpm->scene->equilibrium_steps) {
             say(report, "the unbalanced forces fall too slowly",
-                equilibrium->moved > 0 ? "particles change cells all the time: try bbar, smaller loads or a larger tolerance of quas"
+                equilibrium->moved > 0 ? "particles change cells all the time: try smaller loads or a larger tolerance of quas"
                                        : "try more steps of quas, smaller loads, or QuLo and drda instead of quas");
             return;
         }
@@ -414,7 +416,8 @@ static void search(struct mpm *mpm)
         bool is_taken = take_step(mpm, &crossing);
         if (equilibrium->is_singular && equilibrium->size > equilibrium->limit) {
             say(report, "a force acts on something that has no stiffness",
-                "a part that hangs on a node or an edge, or a mode of cells with one particle: hold it, or take more particles a cell");
+                "a part that hangs on a node or an edge, or a mode of cells with one particle: hold it, or take more "
+                "particles a cell");
             return;
         }
         if (!is_taken && !equilibrium->is_soft) {

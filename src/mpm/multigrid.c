@@ -93,14 +93,23 @@ static void list_blocks(struct stiffness *coarse, const struct stiffness *fine)
     coarse->sets = fine->averages_volume ? 3 : fine->sets;
     coarse->lame = coarse->sets == 1 ? fine->lame : 1;
     coarse->shear = coarse->sets == 1 ? fine->shear : 1;
-    coarse->blocks = memory_grow(coarse->blocks, &coarse->blocks_capacity, 8 * (size_t)fine->active,
-                                 sizeof *coarse->blocks, "levels of the stiffness");
-    int32_t count = 0;
-    for (int32_t b = 0; b < fine->active; b++)
-        for (int i = 0; i < 8 && fine->blocks[b].rows; i++) {
-            const int32_t *at = fine->blocks[b].at;
+    const char *purpose = "levels of the stiffness";
+    const size_t size = sizeof *coarse->blocks;
+    coarse->blocks = memory_grow(coarse->blocks, &coarse->blocks_capacity, (size_t)fine->active, size, purpose);
+    int32_t parents = 0;
+    for (int32_t b = 0; b < fine->active; b++) {
+        const int32_t *at = fine->blocks[b].at;
+        if (fine->blocks[b].rows)
+            coarse->blocks[parents++] = (struct stiffness_block){.at = {at[0] / 2, at[1] / 2, at[2] / 2}};
+    }
+    parents = sort_blocks(coarse->blocks, parents);
+    coarse->blocks = memory_grow(coarse->blocks, &coarse->blocks_capacity, 8 * (size_t)parents, size, purpose);
+    int32_t count = parents;
+    for (int32_t b = 0; b < parents; b++)
+        for (int i = 1; i < 8; i++) {
+            const int32_t *at = coarse->blocks[b].at;
             coarse->blocks[count++] =
-                (struct stiffness_block){.at = {at[0] / 2 + (i & 1), at[1] / 2 + (i >> 1 & 1), at[2] / 2 + (i >> 2)}};
+                (struct stiffness_block){.at = {at[0] + (i & 1), at[1] + (i >> 1 & 1), at[2] + (i >> 2)}};
         }
     count = sort_blocks(coarse->blocks, count);
     stiffness_open(coarse, count, count);
@@ -124,7 +133,8 @@ static void link_levels(struct multigrid_level *coarse, struct multigrid_level *
             coarse->child[b][i] = -1;
     for (size_t b = 0; b < fine_blocks; b++) {
         const int32_t *at = fine->stiffness.blocks[b].at;
-        int32_t parent = find_block(coarse->stiffness.blocks, coarse->stiffness.n_blocks, (int32_t[]){at[0] / 2, at[1] / 2, at[2] / 2});
+        const int32_t place[3] = {at[0] / 2, at[1] / 2, at[2] / 2};
+        int32_t parent = find_block(coarse->stiffness.blocks, coarse->stiffness.n_blocks, place);
         fine->parent[b] = parent;
         if (parent >= 0)
             coarse->child[parent][at[0] % 2 + 2 * (at[1] % 2) + 4 * (at[2] % 2)] = (int32_t)b;
@@ -133,8 +143,8 @@ static void link_levels(struct multigrid_level *coarse, struct multigrid_level *
 
 /* --- moments of a coarser level --- */
 
-/* Adds `factor` times the moments of a cell, m(a, b, c) = from[(a + 3 b + 9 c) * 4], to those of a cell twice as large that it
- * is the part `side` of: coordinates there are x / 2 -+ 1/4. */
+/* Adds `factor` times the moments of a cell, m(a, b, c) = from[(a + 3 b + 9 c) * 4], to those of a cell twice as
+ * large that it is the part `side` of: coordinates there are x / 2 -+ 1/4. */
 static void add_moments(const double *from, double factor, const int side[3], double *to)
 {
     double m[STIFFNESS_MOMENTS];
@@ -228,9 +238,11 @@ static void restrict_vector(const struct multigrid_level *coarse, const struct m
     for (int32_t b = 0; b < stiffness->active; b++) {
         double *patch = stiffness->patch + (size_t)b * 6 * PATCH;
         memset(patch, 0, 3 * PATCH * sizeof *patch);
-        for (int i = 0; i < 8; i++)
-            if (coarse->child[b][i] >= 0)
-                restrict_block(x + (size_t)coarse->child[b][i] * VECTOR, fine->stiffness.blocks[coarse->child[b][i]].at, patch);
+        for (int i = 0; i < 8; i++) {
+            const int32_t child = coarse->child[b][i];
+            if (child >= 0)
+                restrict_block(x + (size_t)child * VECTOR, fine->stiffness.blocks[child].at, patch);
+        }
     }
 #pragma omp parallel for schedule(static) if (stiffness->active >= STIFFNESS_SHARED)
     for (int32_t b = 0; b < stiffness->n_blocks; b++)
@@ -239,8 +251,8 @@ static void restrict_vector(const struct multigrid_level *coarse, const struct m
 
 /* x += P y on the free nodes of the finer level. */
 THREADS_VECTORISED
-static void prolong_block(const struct multigrid_level *coarse, const struct multigrid_level *fine, const double *y, int32_t b,
-                          double *x)
+static void prolong_block(const struct multigrid_level *coarse, const struct multigrid_level *fine, const double *y,
+                          int32_t b, double *x)
 {
     const struct stiffness_block *block = &fine->stiffness.blocks[b];
     double patch[3 * PATCH];

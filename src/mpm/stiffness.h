@@ -84,6 +84,6 @@ void stiffness_jacobi(const struct stiffness *stiffness, int32_t b, const double
 void stiffness_read(const struct stiffness *stiffness, const double *x, int32_t b, double *patch);
 
 /* Fewer blocks than this are not worth a second thread. */
-enum { STIFFNESS_SHARED = 16 };
+enum { STIFFNESS_SHARED = 100 };
 
 #endif
