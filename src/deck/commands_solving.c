@@ -270,10 +270,10 @@ const struct keyword solving_keywords[] = {
      .doc = "no time steps: the static equilibrium is found directly, with unbalanced forces of tol times those at the start "
             "(1e-6 is a good one); at most maxit Newton steps (`quas tol maxit`, 50), then kinetic damping. endt is not "
             "looked at; each equilibrium counts 1 in time and is written",
-     .details = "quas tol [maxit]\nThe forces that tol is measured by are the largest unbalanced ones at the start of any equilibrium of "
-                "the run. Rigid motions that nothing holds are taken out. Linear shapes only, with or without bbar; laws with "
-                "an equation of state, contact, TLmp, QuLo and velo do not go with it. Plastic flow follows the way of the "
-                "search, not that of a slow loading; with kinetic damping it overshoots."},
+     .details = "quas tol [maxit]\nThe forces that tol is measured by are the largest unbalanced ones at the start of any "
+                "equilibrium of the run.\nRigid motions that nothing holds are taken out. Linear shapes only, with or without "
+                "bbar; laws with an equation of state, contact,\nTLmp, QuLo and velo do not go with it. Plastic flow follows "
+                "the way of the search, not that of a slow loading;\nwith kinetic damping it overshoots."},
     {.name = "xfer", .long_name = "transfer",
      .arguments = (const struct argument[]){{"flip|pic|apic|blend", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}},
      .apply = read_transfer,
