@@ -40,6 +40,7 @@ struct equilibrium {
     struct multigrid multigrid;
     struct conjugate_room room;
     struct rigid rigid;
+    struct light_nodes light;
     double *force, *right, *displacement; /* vectors on the nodes: [block][3][64] */
     size_t force_capacity, right_capacity, displacement_capacity;
     double *copy[SAVED][COLUMN_COMPONENTS]; /* the particles before a step */
@@ -83,6 +84,7 @@ void equilibrium_close(struct equilibrium *equilibrium)
     multigrid_close(&equilibrium->multigrid);
     conjugate_close(&equilibrium->room);
     rigid_close(&equilibrium->rigid);
+    light_nodes_close(&equilibrium->light);
     memory_free(equilibrium->force);
     memory_free(equilibrium->right);
     memory_free(equilibrium->displacement);
@@ -123,23 +125,22 @@ static void scatter_all(struct mpm *mpm, int32_t b)
     mpm->shape->scatter(mpm, b, true, true);
 }
 
-/* Unbalanced forces of a block's nodes with `least_mass`; no less than none takes those whose mass is round-off too:
- * static forces don't depend on it, and where a node is left out the particles around it feel it held. */
-static void take_force(const struct mpm *mpm, int32_t b, double least_mass, double *force)
+/* Unbalanced forces of a block's nodes, whatever their mass: static forces don't depend on it. */
+static void take_force(const struct mpm *mpm, int32_t b, double *force)
 {
-    const double *mass = grid_field(mpm->grid, b, NODE_MASS);
     const size_t first = (size_t)b * BLOCK_CELLS;
     for (int a = 0; a < 3; a++) {
         const double *from = grid_field(mpm->grid, b, NODE_FORCE + a);
         for (int n = 0; n < BLOCK_CELLS; n++) {
-            bool is_part = mpm->equilibrium->rigid.part_of_node[first + (size_t)n] >= 0 && mass[n] >= least_mass;
+            bool is_part = mpm->equilibrium->rigid.part_of_node[first + (size_t)n] >= 0;
             force[a * BLOCK_CELLS + n] = is_part && !(mpm->grid->fixed[first + (size_t)n] >> a & 1) ? from[n] : 0;
         }
     }
 }
 
-/* Finds the unbalanced forces and their length, without resultants along free motions; returns the length of these. */
-static double renew_forces(struct mpm *mpm, double least_mass)
+/* Finds the unbalanced forces and their length: those of light nodes moved to the ones they follow, and without
+ * resultants along free motions; returns the length of these. */
+static double renew_forces(struct mpm *mpm)
 {
     struct equilibrium *equilibrium = mpm->equilibrium;
     const int32_t blocks = mpm->cells->n_blocks;
@@ -152,9 +153,12 @@ static double renew_forces(struct mpm *mpm, double least_mass)
 #pragma omp parallel for schedule(static) if (blocks >= mpm->grid->shared_blocks)
     for (int32_t b = 0; b < blocks; b++)
         grid_collect(mpm->grid, b, NODE_MASS, 7, 0);
-    rigid_find(&equilibrium->rigid, mpm);
+    rigid_connect(&equilibrium->rigid, mpm);
+    light_nodes_find(&equilibrium->light, mpm, equilibrium->rigid.part_of_node);
+    rigid_find(&equilibrium->rigid, mpm, equilibrium->light.is_light);
     for (int32_t b = 0; b < blocks; b++)
-        take_force(mpm, b, least_mass, equilibrium->force + (size_t)b * STIFFNESS_VECTOR);
+        take_force(mpm, b, equilibrium->force + (size_t)b * STIFFNESS_VECTOR);
+    light_nodes_lead(&equilibrium->light, mpm->grid->fixed, equilibrium->force);
     double resultant = rigid_remove_force(&equilibrium->rigid, mpm, equilibrium->force);
     equilibrium->size = vector_length(equilibrium->force, vector_count(mpm));
     return resultant;
@@ -259,7 +263,7 @@ static enum conjugate_ending find_displacement(struct mpm *mpm)
     equilibrium->right = memory_grow(equilibrium->right, &equilibrium->right_capacity, count, sizeof(double), "equilibrium");
     equilibrium->displacement = memory_grow(equilibrium->displacement, &equilibrium->displacement_capacity, count,
                                             sizeof(double), "equilibrium");
-    multigrid_open(&equilibrium->multigrid, mpm, equilibrium->is_soft ? equilibrium->softening : NULL,
+    multigrid_open(&equilibrium->multigrid, mpm, &equilibrium->light, equilibrium->is_soft ? equilibrium->softening : NULL,
                    equilibrium->report.newton_steps > 0);
     memcpy(equilibrium->right, equilibrium->force, count * sizeof(double));
     const struct conjugate_problem problem = {&equilibrium->multigrid, multigrid_apply, multigrid_precondition, count};
@@ -267,6 +271,7 @@ static enum conjugate_ending find_displacement(struct mpm *mpm)
     struct conjugate_result result = conjugate_solve(&problem, &equilibrium->room, equilibrium->displacement,
                                                      equilibrium->right, target, LINEAR_ITERATIONS);
     rigid_remove_motion(&equilibrium->rigid, mpm, equilibrium->displacement);
+    light_nodes_follow(&equilibrium->light, mpm->grid->fixed, equilibrium->displacement);
     equilibrium->report.iterations += result.iterations;
     equilibrium->seconds += threads_clock() - start;
     return result.ending;
@@ -341,7 +346,7 @@ static bool take_step(struct mpm *mpm, int *crossing)
     save(mpm);
     for (int halvings = 0; halvings <= HALVINGS; halvings++, scale /= 2) {
         move(mpm, scale);
-        renew_forces(mpm, 0);
+        renew_forces(mpm);
         bool is_sound = isfinite(equilibrium->size) && mpm->sums.least_volume > 0;
         double left = work_of_forces(mpm);
         bool is_less = equilibrium->size < before || equilibrium->size <= equilibrium->limit;
@@ -357,7 +362,7 @@ static bool take_step(struct mpm *mpm, int *crossing)
         }
         restore(mpm);
     }
-    renew_forces(mpm, 0);
+    renew_forces(mpm);
     return false;
 }
 
@@ -452,7 +457,7 @@ static void settle(struct mpm *mpm)
         if (mpm_check(mpm).is_stopped)
             break;
         if (report->damped_steps % DAMPED_LOOK == 0 || mpm->sums.kinetic == 0) {
-            renew_forces(mpm, mpm->grid->mass_cutoff);
+            renew_forces(mpm);
             if (equilibrium->size <= equilibrium->limit)
                 report->state = EQUILIBRIUM_FOUND;
         }
@@ -461,7 +466,7 @@ static void settle(struct mpm *mpm)
     mpm->step_scale = mpm->scene->step_scale;
     mpm->step = step;
     mpm->time = time;
-    renew_forces(mpm, mpm->grid->mass_cutoff);
+    renew_forces(mpm);
     if (report->state != EQUILIBRIUM_FOUND)
         say(report, "neither Newton's method nor kinetic damping leads to an equilibrium",
             "is there one under these loads? try smaller loads, or a larger tolerance of quas");
@@ -515,7 +520,7 @@ static bool start_search(struct mpm *mpm)
     struct equilibrium *equilibrium = mpm->equilibrium;
     struct equilibrium_report *report = &equilibrium->report;
     const struct rigid *rigid = &equilibrium->rigid;
-    double resultant = renew_forces(mpm, 0);
+    double resultant = renew_forces(mpm);
     equilibrium->reference = fmax(equilibrium->reference, equilibrium->size);
     equilibrium->limit = fmax(mpm->scene->equilibrium_tolerance * equilibrium->reference, ROUND_OFF * particle_forces(mpm));
     report->floating = rigid->n_floating;

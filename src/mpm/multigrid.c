@@ -297,8 +297,21 @@ static void coarsen_boundary(struct multigrid_level *coarse, struct multigrid_le
 
 /* --- smoothing --- */
 
+/* y = K x, on the finest level with the light nodes following: x, which has zeros for them, is changed meanwhile. */
+static void apply(const struct multigrid *multigrid, const struct multigrid_level *level, double *x, double *y)
+{
+    const bool has_light = level == multigrid->level && multigrid->light->count > 0;
+    if (has_light)
+        light_nodes_follow(multigrid->light, multigrid->fixed, x);
+    stiffness_apply(&level->stiffness, x, y);
+    if (has_light) {
+        light_nodes_clear(multigrid->light, x);
+        light_nodes_lead(multigrid->light, multigrid->fixed, y);
+    }
+}
+
 /* Largest eigenvalue of inverse diagonal times K, by iteration from a vector without pattern. */
-static double largest_eigenvalue(struct multigrid_level *level)
+static double largest_eigenvalue(const struct multigrid *multigrid, struct multigrid_level *level)
 {
     const struct stiffness *stiffness = &level->stiffness;
     const size_t length = length_of(level);
@@ -310,11 +323,13 @@ static double largest_eigenvalue(struct multigrid_level *level)
         bool is_free = block->free[i % BLOCK_CELLS] >> i % VECTOR / BLOCK_CELLS & 1;
         x[i] = is_free ? (double)(random >> 8) / (1 << 24) - 0.5 : 0;
     }
+    if (level == multigrid->level)
+        light_nodes_clear(multigrid->light, x);
     for (int k = 0; k < BOUND_ITERATIONS; k++) {
         double size = vector_length(x, length);
         if (!(size > 0))
             return 1;
-        stiffness_apply(stiffness, x, y);
+        apply(multigrid, level, x, y);
 #pragma omp parallel for schedule(static) if (stiffness->active >= STIFFNESS_SHARED)
         for (int32_t b = 0; b < stiffness->n_blocks; b++)
             stiffness_jacobi(stiffness, b, y + (size_t)b * VECTOR, 1 / size, 0, x + (size_t)b * VECTOR);
@@ -325,39 +340,30 @@ static double largest_eigenvalue(struct multigrid_level *level)
 
 /* Adds to z a polynomial of the Jacobi iteration for K z = residual; with `starts` z is zero before.
  * The residual follows; without `follows` it lacks the last step's. */
-static void smooth(struct multigrid_level *level, double *z, bool starts, bool follows)
+static void smooth(const struct multigrid *multigrid, struct multigrid_level *level, double *z, bool starts, bool follows)
 {
     const struct stiffness *stiffness = &level->stiffness;
     const double high = level->largest, low = high / SMOOTHED_PART, middle = (high + low) / 2, half = (high - low) / 2;
     double rate = half / middle, factor = 1 / middle, share = 0;
-    const int steps = SMOOTHING_STEPS;
-    for (int k = 0; k <= steps; k++) {
-        const bool first = k == 0, last = k == steps;
-        if (last && !follows)
-            break;
-        if (!first) {
-#pragma omp parallel for schedule(dynamic, 4) if (stiffness->active >= STIFFNESS_SHARED)
-            for (int32_t b = 0; b < stiffness->active; b++)
-                stiffness_give(stiffness, level->step, b);
+    for (int k = 0; k < SMOOTHING_STEPS + follows; k++) {
+        if (k > 0) {
             double next = 1 / (2 * middle / half - rate);
             share = next * rate, factor = 2 * next / half, rate = next;
+            apply(multigrid, level, level->step, level->image);
         }
 #pragma omp parallel for schedule(static) if (stiffness->active >= STIFFNESS_SHARED)
         for (int32_t b = 0; b < stiffness->n_blocks; b++) {
-            double *r = level->residual + (size_t)b * VECTOR, *step = level->step + (size_t)b * VECTOR;
-            double *to = z + (size_t)b * VECTOR, image[VECTOR];
-            if (!first) {
-                stiffness_collect(stiffness, b, image, true);
-                for (int i = 0; i < VECTOR; i++)
-                    r[i] -= image[i];
-            }
-            if (last)
-                continue;
-            if (first)
+            const size_t first = (size_t)b * VECTOR;
+            double *r = level->residual + first, *step = level->step + first, *to = z + first;
+            if (k == 0)
                 memset(step, 0, VECTOR * sizeof *step);
+            for (int i = 0; i < VECTOR && k > 0; i++)
+                r[i] -= level->image[first + (size_t)i];
+            if (k == SMOOTHING_STEPS)
+                continue;
             stiffness_jacobi(stiffness, b, r, factor, share, step);
             for (int i = 0; i < VECTOR; i++)
-                to[i] = first && starts ? step[i] : to[i] + step[i];
+                to[i] = k == 0 && starts ? step[i] : to[i] + step[i];
         }
     }
 }
@@ -479,18 +485,28 @@ static void find_free(struct stiffness *stiffness, const struct grid *grid)
         }
 }
 
-void multigrid_open(struct multigrid *multigrid, const struct mpm *mpm, const double *softening, bool keeps_bounds)
+/* Whether a level needs a coarser one; the finest does too where light nodes follow others, whose stiffness reaches
+ * further than the coarsest level's matrix has room for. */
+static bool is_too_large(const struct multigrid *multigrid, int l)
+{
+    return count_unknowns(&multigrid->level[l].stiffness) > COARSEST_UNKNOWNS || (l == 0 && multigrid->light->count > 0);
+}
+
+void multigrid_open(struct multigrid *multigrid, const struct mpm *mpm, const struct light_nodes *light,
+                    const double *softening, bool keeps_bounds)
 {
     struct multigrid_level *level = multigrid->level;
     int l = 0;
+    multigrid->light = light;
+    multigrid->fixed = mpm->grid->fixed;
     stiffness_of_particles(&level[0].stiffness, mpm, softening);
     make_vectors(&level[0], false);
     find_free(&level[0].stiffness, mpm->grid);
     stiffness_diagonal(&level[0].stiffness);
-    for (; count_unknowns(&level[l].stiffness) > COARSEST_UNKNOWNS && l + 1 < MULTIGRID_LEVELS; l++) {
+    for (; is_too_large(multigrid, l) && l + 1 < MULTIGRID_LEVELS; l++) {
         struct stiffness *coarse = &level[l + 1].stiffness;
         if (!keeps_bounds || l + 1 >= multigrid->n_levels)
-            level[l].largest = BOUND_MARGIN * largest_eigenvalue(&level[l]);
+            level[l].largest = BOUND_MARGIN * largest_eigenvalue(multigrid, &level[l]);
         list_blocks(coarse, &level[l].stiffness);
         link_levels(&level[l + 1], &level[l]);
         make_vectors(&level[l + 1], true);
@@ -508,8 +524,14 @@ void multigrid_open(struct multigrid *multigrid, const struct mpm *mpm, const do
 void multigrid_apply(void *context, const double *x, double *y)
 {
     struct multigrid *multigrid = context;
+    struct multigrid_level *level = multigrid->level;
     multigrid->applications++;
-    stiffness_apply(&multigrid->level[0].stiffness, x, y);
+    if (multigrid->light->count > 0) {
+        memcpy(level->step, x, length_of(level) * sizeof *x);
+        apply(multigrid, level, level->step, y);
+    } else {
+        stiffness_apply(&level->stiffness, x, y);
+    }
 }
 
 /* From the finest level down and up again. */
@@ -523,19 +545,20 @@ void multigrid_precondition(void *context, const double *r, double *z)
     for (int l = 0; l < coarsest; l++) {
         double *solution = l == 0 ? z : level[l].solution;
         memcpy(level[l].residual, source, length_of(&level[l]) * sizeof *source);
-        smooth(&level[l], solution, true, true);
+        smooth(multigrid, &level[l], solution, true, true);
         restrict_vector(&level[l + 1], &level[l], level[l].residual, true, level[l + 1].source);
         source = level[l + 1].source;
     }
     solve_coarsest(multigrid, &level[coarsest], source, coarsest == 0 ? z : level[coarsest].solution);
     for (int l = coarsest - 1; l >= 0; l--) {
-        const struct stiffness *stiffness = &level[l].stiffness;
         double *solution = l == 0 ? z : level[l].solution;
         memset(level[l].step, 0, length_of(&level[l]) * sizeof(double));
         prolong_vector(&level[l + 1], &level[l], level[l + 1].solution, level[l].step);
+        if (l == 0)
+            light_nodes_clear(multigrid->light, level[l].step);
         vector_add(solution, 1, level[l].step, length_of(&level[l]));
-        stiffness_apply(stiffness, level[l].step, level[l].image);
+        apply(multigrid, &level[l], level[l].step, level[l].image);
         vector_add(level[l].residual, -1, level[l].image, length_of(&level[l]));
-        smooth(&level[l], solution, false, false);
+        smooth(multigrid, &level[l], solution, false, false);
     }
 }

@@ -8,6 +8,7 @@
 #define MPM_MULTIGRID_H
 
 #include "base/envelope.h"
+#include "mpm/light_nodes.h"
 #include "mpm/stiffness.h"
 
 enum { MULTIGRID_LEVELS = 16 };
@@ -29,6 +30,8 @@ struct multigrid {
     struct envelope coarsest;
     int32_t *unknown;     /* of the coarsest level: place of each unknown in a vector, in order of elimination */
     size_t unknown_capacity;
+    const struct light_nodes *light; /* of the finest level, the caller's */
+    const uint8_t *fixed; /* per node of it: directions that are held */
     long applications;    /* of the finest stiffness, since the start */
 };
 
@@ -37,12 +40,14 @@ void multigrid_close(struct multigrid *multigrid);
 /* Takes the particles of the run (`softening` as in stiffness.h) and makes all levels; bounds of eigenvalues are those of the last time where
  * `keeps_bounds` says that the particles have hardly moved since. A node with
  * stiffness is free in the directions that no boundary holds. */
-void multigrid_open(struct multigrid *multigrid, const struct mpm *mpm, const double *softening, bool keeps_bounds);
+void multigrid_open(struct multigrid *multigrid, const struct mpm *mpm, const struct light_nodes *light,
+                    const double *softening, bool keeps_bounds);
 
 /* Numbers in a vector of the finest level. */
 size_t multigrid_count(const struct multigrid *multigrid);
 
-/* y = K x; z = B r. Fit struct conjugate_problem, with the multigrid as context. */
+/* y = K x; z = B r. Fit struct conjugate_problem, with the multigrid as context. Light nodes, which have to stay as
+ * they are while it is in use, follow the others in K and are zero in all vectors. */
 void multigrid_apply(void *multigrid, const double *x, double *y);
 void multigrid_precondition(void *multigrid, const double *r, double *z);
 

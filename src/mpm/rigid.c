@@ -132,7 +132,7 @@ struct visit {
 static bool visit_node(const struct rigid *rigid, const struct mpm *mpm, int32_t node, struct visit *visit)
 {
     const int32_t b = node / BLOCK_CELLS, n = node % BLOCK_CELLS;
-    if (rigid->part_of_node[node] < 0)
+    if (rigid->part_of_node[node] < 0 || (rigid->leaves_out && rigid->leaves_out[node]))
         return false;
     visit->part = &rigid->parts[rigid->part_of_node[node]];
     visit->mass = grid_field(mpm->grid, b, NODE_MASS)[n];
@@ -242,12 +242,17 @@ static void find_bodies(struct rigid *rigid, const struct mpm *mpm)
         }
 }
 
-void rigid_find(struct rigid *rigid, const struct mpm *mpm)
+void rigid_connect(struct rigid *rigid, const struct mpm *mpm)
 {
     const size_t nodes = (size_t)mpm->cells->n_blocks * BLOCK_CELLS;
     rigid->part_of_node = memory_grow(rigid->part_of_node, &rigid->nodes_capacity, nodes, sizeof(int32_t), "rigid motions");
     connect(rigid, mpm);
     number_parts(rigid, mpm);
+}
+
+void rigid_find(struct rigid *rigid, const struct mpm *mpm, const uint8_t *leaves_out)
+{
+    rigid->leaves_out = leaves_out;
     rigid->parts = memory_grow(rigid->parts, &rigid->parts_capacity, (size_t)rigid->n_parts, sizeof *rigid->parts, "rigid motions");
     memset(rigid->parts, 0, (size_t)rigid->n_parts * sizeof *rigid->parts);
     find_centres(rigid, mpm);

@@ -13,6 +13,7 @@ struct rigid_part;
 struct rigid {
     int32_t *part_of_node; /* [block][64], -1 where no cell around has particles */
     struct rigid_part *parts;
+    const uint8_t *leaves_out; /* per node, the caller's, or NULL */
     int32_t n_parts, n_floating; /* connected sets, and those of them with free motions */
     int motions;                 /* free motions of the first that floats */
     int32_t body;                /* body of a particle of it */
@@ -21,8 +22,12 @@ struct rigid {
 
 void rigid_close(struct rigid *rigid);
 
-/* Finds the parts and their free motions. The grid holds the nodes' masses. */
-void rigid_find(struct rigid *rigid, const struct mpm *mpm);
+/* Finds the connected parts. */
+void rigid_connect(struct rigid *rigid, const struct mpm *mpm);
+
+/* Finds their free motions then. The grid holds the nodes' masses; nodes for which `leaves_out` is not 0 don't
+ * count (NULL: all do). */
+void rigid_find(struct rigid *rigid, const struct mpm *mpm, const uint8_t *leaves_out);
 
 /* Takes the resultants along free motions out of nodal forces ([block][3][64]), as forces that grow with
  * mass; returns the length of what was taken. */

@@ -133,9 +133,10 @@ static void test_against_particles(const char *name, const char *words, int mate
 {
     struct test_run run;
     struct multigrid multigrid = {0};
+    const struct light_nodes light = {0}; /* none */
     char text[100];
     open_points(&run, words, materials);
-    multigrid_open(&multigrid, run.mpm, NULL, false);
+    multigrid_open(&multigrid, run.mpm, &light, NULL, false);
     const struct stiffness *stiffness = &multigrid.level[0].stiffness;
     const size_t count = multigrid_count(&multigrid);
     double *x = calloc(count, sizeof *x), *y = calloc(count, sizeof *y), *z = calloc(count, sizeof *z), *w = calloc(count, sizeof *w);
@@ -180,10 +181,11 @@ static void test_levels(const char *name, const char *words, int materials)
 {
     struct test_run run;
     struct multigrid multigrid = {0};
+    const struct light_nodes light = {0}; /* none */
     double energy[2];
     char text[100];
     open_points(&run, words, materials);
-    multigrid_open(&multigrid, run.mpm, NULL, false);
+    multigrid_open(&multigrid, run.mpm, &light, NULL, false);
     for (int l = 0; l < 2; l++) {
         const struct stiffness *stiffness = &multigrid.level[l].stiffness;
         const size_t count = (size_t)stiffness->n_blocks * STIFFNESS_VECTOR;
@@ -216,7 +218,8 @@ static void test_rigid(const char *fixed, int expected)
     deck_add(&deck, "mate\n1 elas 1 100 0.3\npart bloc 1\n1 1 0.5 0 0 0 4 4 4\nendi\n");
     test_run_open(&run, &deck);
     mpm_equilibrate(run.mpm); /* puts masses on the grid */
-    rigid_find(&rigid, run.mpm);
+    rigid_connect(&rigid, run.mpm);
+    rigid_find(&rigid, run.mpm, NULL);
     snprintf(text, sizeof text, "free motions with fixe %s", fixed);
     check_near(text, rigid.n_floating > 0 ? rigid.motions : 0, expected, 0);
     const size_t count = (size_t)run.mpm->cells->n_blocks * STIFFNESS_VECTOR;
@@ -238,8 +241,47 @@ static void test_rigid(const char *fixed, int expected)
     test_run_close(&run);
 }
 
+/* A block whose outermost points lie just inside further cells: nodes there are light. Linear fields go on through
+ * them, and their forces are moved by the transpose. */
+static void test_light(void)
+{
+    struct test_run run;
+    struct deck_builder deck = {0};
+    struct light_nodes light = {0};
+    struct rigid rigid = {0};
+    deck_add(&deck, "mpm3d\nnbco 1\nnbbo 1\nnbmp 512\nnmat 1\nspx 0 6\nspy 0 6\nspz 0 6\ndcel 1\nquas 1e-6\n");
+    deck_add(&deck, "mate\n1 elas 1 100 0.3\npart bloc 1\n1 1 0.5 0.74999 0.74999 0.5 8 8 8\nendi\n");
+    test_run_open(&run, &deck);
+    mpm_equilibrate(run.mpm); /* puts masses on the grid */
+    rigid_connect(&rigid, run.mpm);
+    light_nodes_find(&light, run.mpm, rigid.part_of_node);
+    check_near("light nodes: two lower faces of 6 x 6 nodes, less their edge", light.count, 2 * 36 - 6, 0);
+    const size_t count = (size_t)run.mpm->cells->n_blocks * STIFFNESS_VECTOR;
+    double *x = calloc(count, sizeof *x), *y = calloc(count, sizeof *y), *z = calloc(count, sizeof *z), worst = 0;
+    for (size_t i = 0; i < count; i++) {
+        const struct cell_block *block = &run.mpm->cells->blocks[i / STIFFNESS_VECTOR];
+        const int n = (int)(i % 64), a = (int)(i % STIFFNESS_VECTOR / 64);
+        const double place[3] = {4 * block->at[0] + n % 4, 4 * block->at[1] + n / 4 % 4, 4 * block->at[2] + n / 16};
+        x[i] = y[i] = 1 + (1 + a) * place[0] - 0.5 * place[1] + 0.3 * a * place[2];
+        z[i] = sin((double)i);
+    }
+    light_nodes_clear(&light, y);
+    light_nodes_follow(&light, run.mpm->grid->fixed, y);
+    for (size_t i = 0; i < count; i++)
+        worst = fmax(worst, fabs(y[i] - x[i]));
+    check_near("light nodes: linear fields go on", worst, 0, 1e-13);
+    double before = vector_dot(y, z, count);
+    light_nodes_lead(&light, run.mpm->grid->fixed, z);
+    check_near("light nodes: forces do the same work where they are moved", vector_dot(y, z, count) / before, 1, 1e-12);
+    free(x), free(y), free(z);
+    light_nodes_close(&light);
+    rigid_close(&rigid);
+    test_run_close(&run);
+}
+
 int main(void)
 {
+    test_light();
     test_against_particles("one material", "fixe 2 0 1 0 0 0", 1);
     test_against_particles("two materials", "fixe 0 0 0 0 0 1", 2);
     test_against_particles("bbar", "bbar", 1);
