@@ -98,6 +98,10 @@ study: $(build)/tests/test_wave $(build)/tests/test_conservation
 	$(build)/tests/test_wave
 	$(build)/tests/test_conservation
 
+# Accuracy and cost by case, scheme and resolution, as the page report/index.html and the table report/table.txt.
+report: all
+	@sh tests/report/report.sh $(build) report $(if $(QUICK),quick,full)
+
 # The last state of decks of each chapter of the thesis, as pictures in report/pictures.
 pictures: all
 	@sh tools/pictures.sh $(build) report/pictures
@@ -136,13 +140,14 @@ help:
 	@echo "make check    the tests under sanitizers, with gcc and clang, warnings as errors; make decks"
 	@echo "make bench    speed: cost by phase, threads, size; against this machine's memory bandwidth"
 	@echo "make study    accuracy: convergence and conservation by scheme"
+	@echo "make report   accuracy against run time by case and scheme: report/index.html; QUICK=1 for the short form"
 	@echo "make pictures draws the last state of decks of each chapter of the thesis (1 minute)"
 	@echo "make manual   writes MANUAL.md from the program's tables"
 	@echo "make fuzz     fuzzes the deck reader (clang)"
 	@echo "make install  PREFIX=$(PREFIX), DESTDIR; make uninstall; make clean"
 	@echo "options: CC, CFLAGS, NATIVE=1 (this machine's instructions), SAN=1 (sanitizers)"
 
-.PHONY: all run test decks check bench study manual fuzz install uninstall clean help pictures
+.PHONY: all run test decks check bench study manual fuzz install uninstall clean help pictures report
 .PHONY: always
 .SECONDARY: $(tool_parts)
 .DEFAULT_GOAL := all

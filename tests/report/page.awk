@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The page of the report from its table: awk -f page.awk CASES TABLE. Charts are the files CASE-time.svg and CASE-order.svg
+# of the folder; what a case is stands in the lines "#:" of its program.
+FNR == NR {
+    split($0, field, "|")
+    gsub(/ /, "", field[1])
+    split(field[2], part, " ")
+    program[field[1]] = part[1]
+    answers[field[1]] = field[7]
+    next
+}
+FNR == 1 { next }
+{
+    rows++
+    name[rows] = $1; scheme[rows] = $2; cells[rows] = $3; dtsc[rows] = $4; error[rows] = $5; seconds[rows] = $6
+    steps[rows] = $7; bytes[rows] = $8; status[rows] = $9; value[rows] = $10; exact[rows] = $11
+    if (!($1 in from)) { from[$1] = rows; order[++cases] = $1 }
+    to[$1] = rows
+}
+
+function escape(text) { gsub(/&/, "\\&amp;", text); gsub(/</, "\\&lt;", text); gsub(/>/, "\\&gt;", text); return text }
+
+function log10(x) { return log(x) / log(10) }
+
+# Whether row r has an error above zero.
+function has_error(r) { return error[r] != "nan" && error[r] + 0 > 0 }
+
+# Marks the rows that no row of the case beats in both error and seconds.
+function mark_front(c,    r, q) {
+    for (r = from[c]; r <= to[c]; r++) {
+        on_front[r] = has_error(r)
+        for (q = from[c]; on_front[r] && q <= to[c]; q++)
+            if (has_error(q) && error[q] + 0 <= error[r] + 0 && seconds[q] + 0 <= seconds[r] + 0 &&
+                (error[q] + 0 < error[r] + 0 || seconds[q] + 0 < seconds[r] + 0)) on_front[r] = 0
+    }
+}
+
+# The order of convergence that brought row r: from the next coarser run of the same scheme and step.
+function order_of(r, c,    q, coarse) {
+    for (q = from[c]; q <= to[c]; q++)
+        if (scheme[q] == scheme[r] && dtsc[q] == dtsc[r] && cells[q] + 0 < cells[r] + 0 &&
+            (!coarse || cells[q] + 0 > cells[coarse] + 0)) coarse = q
+    if (!coarse || !has_error(r) || !has_error(coarse)) return ""
+    return sprintf("%.2f", log(error[coarse] / error[r]) / log(cells[r] / cells[coarse]))
+}
+
+function print_description(c,    line, path) {
+    path = here "/" program[c] ".awk"
+    printf "<p>"
+    while ((getline line <path) > 0)
+        if (line ~ /^#:/) print escape(substr(line, 4))
+    close(path)
+    print "</p>"
+}
+
+function print_chart(c, which, text,    path, line, is_there) {
+    path = c "-" which ".svg"
+    is_there = (getline line <(folder "/" path)) > 0
+    close(folder "/" path)
+    if (is_there) print "<figure><img src=\"" path "\" alt=\"" c ": error " text "\"></figure>"
+    else print "<p>No run has an error to draw " text ".</p>"
+}
+
+function run_name(r) { return "<b>" scheme[r] "</b> with " cells[r] " cells" (dtsc[r] == "-" ? "" : " at dtsc " dtsc[r]) }
+
+# The next row of the front in seconds behind the row `last` (0: the first); 0: none.
+function next_on_front(c, last,    r, best) {
+    for (r = from[c]; r <= to[c]; r++)
+        if (on_front[r] && r != last && !(r in told) && (!best || seconds[r] + 0 < seconds[best] + 0)) best = r
+    return best
+}
+
+# Which runs are worth it: the front in words; what the schemes beside it miss.
+function print_verdict(c,    r, last, text, count, i, s, best, n_bad, bad, first_good, k) {
+    split("", told); split("", winner); split("", others)
+    n_bad = 0
+    while ((r = next_on_front(c, last)) > 0) {
+        text = text (last ? "; " : "") "from " seconds[r] " s on " run_name(r) " (error " error[r] ")"
+        winner[scheme[r]] = 1; told[r] = 1; last = r; count++
+    }
+    if (!count) { print "<p>No run has an error: nothing can be said.</p>"; return }
+    print "<p>Least error for the time spent: " text ".</p>"
+    text = ""
+    for (r = from[c]; r <= to[c]; r++)
+        if (has_error(r) && !(scheme[r] in winner) && !(scheme[r] in others)) {
+            others[scheme[r]] = 1
+            best = r
+            for (k = from[c]; k <= to[c]; k++)
+                if (has_error(k) && scheme[k] == scheme[r] && error[k] + 0 < error[best] + 0) best = k
+            text = text (text ? ", " : "") scheme[r] " (best " error[best] ", " sprintf("%.3g", error[best] / error[last]) " times the least)"
+        }
+    if (text) print "<p>Never on the front: " text ".</p>"
+    print_spoilt(c)
+}
+
+# Runs without an end, and schemes whose error grows with resolution.
+function print_spoilt(c,    r, text, grows) {
+    for (r = from[c]; r <= to[c]; r++) {
+        if (status[r] != 0) text = text (text ? ", " : "") run_name(r) " (status " status[r] ")"
+        if (order_of(r, c) != "" && order_of(r, c) + 0 < 0) grows = grows (grows ? ", " : "") run_name(r)
+    }
+    if (text) print "<p class=bad>Runs that failed: " text ".</p>"
+    if (grows) print "<p class=bad>No convergence, the error is larger than with fewer cells: " grows ".</p>"
+}
+
+function print_rows(c,    r) {
+    print "<details><summary>All " to[c] - from[c] + 1 " runs</summary><table><tr><th>scheme<th>cells<th>dtsc<th>error" \
+        "<th>order<th>seconds<th>particle-steps<th>memory, bytes<th>status<th>value<th>answer</tr>"
+    for (r = from[c]; r <= to[c]; r++)
+        print "<tr" (on_front[r] ? " class=front" : status[r] != 0 ? " class=bad" : "") "><td>" scheme[r] "<td>" cells[r] "<td>" \
+            dtsc[r] "<td>" error[r] "<td>" order_of(r, c) "<td>" seconds[r] "<td>" steps[r] "<td>" bytes[r] "<td>" status[r] \
+            "<td>" value[r] "<td>" (answers[c] ~ /error/ ? "" : exact[r]) "</tr>"
+    print "</table></details>"
+}
+
+END {
+    print "<!DOCTYPE html><html lang=en><meta charset=utf-8><title>Accuracy of " version "</title><style>"
+    print "body{font:16px/1.45 sans-serif;max-width:960px;margin:2em auto;padding:0 1em;color:#222}"
+    print "table{border-collapse:collapse;font-size:13px}td,th{border:1px solid #ccc;padding:2px 7px;text-align:right}"
+    print "td:first-child,th:first-child{text-align:left}.front{background:#e3f1e3;font-weight:bold}.bad{color:#a11}"
+    print "figure{margin:1em 0}img{max-width:100%}summary{cursor:pointer}</style>"
+    print "<h1>Accuracy and cost</h1>"
+    printf "<p>%s on %s: %d runs of size <i>%s</i> in %d s, one after another on one thread. ", version, machine, rows, size, seconds_all
+    print "Errors are relative to the answer that stands with each case. Run time is the whole run with reading and output, in"
+    print "steps of a millisecond (less counts as one); memory is that of particles and grid; a particle-step is one step of one"
+    print "particle, for the static method (quas) one application of the stiffness to it. The front of Pareto joins the runs that no"
+    print "other run of the case beats in both error and time (bold in the tables). The same numbers stand in"
+    print "<a href=table.txt>table.txt</a>.</p><ul>"
+    for (i = 1; i <= cases; i++) print "<li><a href=#" order[i] ">" order[i] "</a>"
+    print "</ul>"
+    for (i = 1; i <= cases; i++) {
+        c = order[i]
+        mark_front(c)
+        print "<h2 id=" c ">" c "</h2>"
+        print_description(c)
+        print_verdict(c)
+        print_chart(c, "time", "against time")
+        print_chart(c, "order", "against resolution")
+        print_rows(c)
+    }
+    print "</html>"
+}
