@@ -8,13 +8,13 @@ BEGIN {
 }
 function print_deck(h,    b, i, j, points) {
     b = beyond(h)
-    for (i = 0; i < 2 * cells; i++)
-        for (j = 0; j < 2 * cells; j++) points += (i + 0.5) ^ 2 + (j + 0.5) ^ 2 < 4 * cells * cells ? 4 : 0
+    for (i = 0; i < 2 * cells; i++) # points of a quarter of the section
+        for (j = 0; j < 2 * cells; j++) points += (i + 0.5) ^ 2 + (j + 0.5) ^ 2 < 4 * cells * cells ? 1 : 0
     head("Taylor bar", points * int(25.4 / s + 0.5))
-    printf "spx %.17g 10.16\nspy %.17g 10.16\nspz %.17g 26.67\ndcell %.17g\nfixed 2 0 2 0 2 0\nlost drop\n", -b, -b, -b, h
+    printf "spx %.17g 10.16\nspy %.17g 10.16\nspz %.17g 26.67\ndcell %.17g\nfixed 2 0 2 0 2 0\n", -b, -b, -b, h
     printf "%s\ndtscale %s\nendt 0.08\ntecp\noutr disz\nmate\n", words, dtsc
     print "1 sjc 8.93e-3 117e3 0.35 90 292 0.31 0.025 1e-3\nseos 1 2 3940 1.49 1.96 0"
-    printf "part cyli 1\n1 8.93e-3 %.17g z 0 0 0 3.81 25.4\nvelo\nbody 1 0 0 -190\nendv\nendi\n", s
+    printf "part soli 1\n1 8.93e-3 %.17g 0 0 0\nadd cyli z 0 0 3.81 0 25.4\nkeep box 0 4 0 4 0 26\nendp\nvelo\nbody 1 0 0 -190\nendv\nendi\n", s
 }
 END {
     if (what == "measure") {
