@@ -42,6 +42,8 @@ static void print_usage(FILE *stream)
           "  -o DIR           write the output files to DIR, made where it is missing\n"
           "  --restart FILE   go on from the checkpoint FILE (job.rest) of the same deck, with the output\n"
           "                   files beside it, or in DIR of -o; other endt, rptt, rest, sort may be given\n"
+          "  --error FILE     compare the last state with the last zone of the animation file FILE: errors of the\n"
+          "                   results that both have, beside the run time\n"
           "  --threads N      use N threads (default: all processors, one for small scenes)\n"
           "  --quiet          no progress line and no summary\n"
           "  --help [WORD]    this text and all words, or one word, law, generator or result\n"
@@ -115,12 +117,15 @@ int main(int count, char **arguments)
             options.only_check = true;
         else if (strcmp(word, "--quiet") == 0 || strcmp(word, "-q") == 0)
             options.quiet = true;
-        else if ((strcmp(word, "-o") == 0 || strcmp(word, "--threads") == 0 || strcmp(word, "--restart") == 0) && !value)
+        else if ((strcmp(word, "-o") == 0 || strcmp(word, "--threads") == 0 || strcmp(word, "--restart") == 0
+                  || strcmp(word, "--error") == 0) && !value)
             return (int)wrong_usage("a value has to follow", word);
         else if (strcmp(word, "-o") == 0)
             options.folder = arguments[++i];
         else if (strcmp(word, "--restart") == 0)
             options.restart = arguments[++i];
+        else if (strcmp(word, "--error") == 0)
+            options.reference = arguments[++i];
         else if (strcmp(word, "--threads") == 0 && !set_thread_count(arguments[++i]))
             return (int)wrong_usage("not a number of threads from 1 to 1024:", value);
         else if (strcmp(word, "--threads") == 0)

@@ -243,6 +243,8 @@ enum status run_open(struct run *run, const struct run_options *options)
     enum status status = read_deck(run);
     if (status == STATUS_FINISHED)
         status = build(run);
+    if (status == STATUS_FINISHED && options->reference)
+        status = reference_open(&run->reference, options->reference, run->scene);
     if (status == STATUS_FINISHED && options->restart)
         status = restart_read(run);
     if (status != STATUS_FINISHED || options->only_check)
@@ -401,6 +403,24 @@ static bool close_output(struct run *run)
     return good;
 }
 
+/* The error of the last state, beside what it took, to the terminal and the log. */
+static enum status print_error(struct run *run, double seconds)
+{
+    FILE *const streams[] = {run->log, stdout};
+    enum status status = STATUS_FINISHED;
+    mark_shown(run);
+    for (int i = 0; i < 2 && status == STATUS_FINISHED; i++) {
+        status = reference_print(&run->reference, run->scene, &run->source, run->is_shown, run->mpm->time, streams[i]);
+        if (status == STATUS_FINISHED)
+            summary_cost(run->mpm, &run->timers, seconds, streams[i]);
+    }
+    if (fflush(stdout) != 0) {
+        status_error("cannot write the error: %s", strerror(errno));
+        status = STATUS_FILE;
+    }
+    return status;
+}
+
 /* How to go on with a run that was interrupted. */
 static void print_way_on(const struct run *run, FILE *stream)
 {
@@ -418,6 +438,8 @@ enum status run_close(struct run *run, enum status status)
         summary_end(run->mpm, &run->timers, seconds, status, run->log);
         if (!run->options.quiet)
             summary_end(run->mpm, &run->timers, seconds, status, stderr);
+        if (status == STATUS_FINISHED && run->options.reference)
+            status = print_error(run, seconds);
         if (status == STATUS_INTERRUPTED)
             print_way_on(run, run->log);
         if (status == STATUS_INTERRUPTED && !run->options.quiet)
@@ -425,6 +447,7 @@ enum status run_close(struct run *run, enum status status)
     }
     if (run->has_output && !close_output(run) && status == STATUS_FINISHED)
         status = STATUS_FILE;
+    reference_close(&run->reference);
     memory_free(run->is_shown);
     memory_free(run->restart_folder);
     vtk_close(&run->vtk);

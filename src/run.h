@@ -10,6 +10,7 @@
 #include "mpm/mpm.h"
 #include "output/history.h"
 #include "output/progress.h"
+#include "output/reference.h"
 #include "output/vtk.h"
 
 /* What the command line says. */
@@ -17,6 +18,7 @@ struct run_options {
     const char *deck;   /* path, or "-" */
     const char *folder; /* of the output files; "" is the present one, NULL that of the checkpoint, else the present one */
     const char *restart; /* checkpoint to go on from, or NULL */
+    const char *reference; /* animation file with which the last state is compared, or NULL */
     bool quiet;
     bool has_threads; /* a number of threads was asked for */
     bool only_check;
@@ -41,6 +43,7 @@ struct run {
     struct history history;
     struct vtk_series vtk;
     struct progress progress;
+    struct reference reference;
     struct result_source source;
     unsigned char *is_shown; /* per id, room for the animation */
     float next_output, next_report;

@@ -99,6 +99,19 @@ static void print_systems(const struct mpm *mpm, FILE *stream)
             applications > 0 ? 1e9 * seconds / ((double)applications * (double)mpm->store->count) : 0);
 }
 
+/* Nanoseconds per particle-step without output. */
+static double solver_cost(const struct mpm *mpm, const struct timers *timers, double seconds)
+{
+    double solver = seconds - timers->seconds[PHASE_OUTPUT] - timers->seconds[PHASE_OTHER];
+    return 1e9 * solver / (mpm->updates > 0 ? mpm->updates : 1);
+}
+
+void summary_cost(const struct mpm *mpm, const struct timers *timers, double seconds, FILE *stream)
+{
+    fprintf(stream, "run time %.6f s, %ld steps, %.2f ns per particle-step without output\n", seconds, mpm->step,
+            solver_cost(mpm, timers, seconds));
+}
+
 static void print_timers(const struct mpm *mpm, const struct timers *timers, double seconds, FILE *stream)
 {
     double updates = mpm->updates > 0 ? mpm->updates : 1;
@@ -108,9 +121,8 @@ static void print_timers(const struct mpm *mpm, const struct timers *timers, dou
         fprintf(stream, "  %-20s %9.3f  %6.1f   %8.2f\n", timers_name((enum phase)phase), spent,
                 seconds > 0 ? 100 * spent / seconds : 0, 1e9 * spent / updates);
     }
-    double solver = seconds - timers->seconds[PHASE_OUTPUT] - timers->seconds[PHASE_OTHER];
     fprintf(stream, "  %-20s %9.3f  %6.1f   %8.2f without output, %d threads\n\n", "total", seconds, 100.0,
-            1e9 * solver / updates, threads_available());
+            solver_cost(mpm, timers, seconds), threads_available());
 }
 
 static void print_lost(const struct mpm *mpm, FILE *stream)

@@ -14,6 +14,9 @@ void summary_start(const struct mpm *mpm, FILE *stream);
 /* Timer table by phase, cost per particle-step, particles lost, energy and momentum balance. */
 void summary_end(const struct mpm *mpm, const struct timers *timers, double seconds, enum status status, FILE *stream);
 
+/* One line: run time, steps and cost per particle-step. */
+void summary_cost(const struct mpm *mpm, const struct timers *timers, double seconds, FILE *stream);
+
 /* Why a run was stopped: step, time, particle, cause, what to try. */
 void summary_instability(const struct mpm *mpm, const struct instability *instability, FILE *stream);
 

@@ -108,6 +108,31 @@ check "bare zone" grep -q '^ZONE T="time  0.000E+00"$' bare_anim.dat
 check "bare curve header" grep -q '^Time engk1       engi1       velx1       $' bare_curv.dat
 check "tecdiff reads both styles" "$build/tecdiff" -r 1e-3 bare_anim.dat good_anim.dat
 
+# --error: the last state against a file of the program's own
+cp good_anim.dat same.dat
+expect "error against itself" 0 "velx  *0.000000E+00  0.000000E+00" "$mpm3d" --quiet --error same.dat good.mpm
+check "the log has it too" grep -q "error against the last zone of same.dat, 64 rows" good.out
+check "beside its run time" grep -q "^run time [0-9.]* s, [0-9]* steps, [0-9.]* ns per particle-step" good.out
+# velx of the reference: 0.01 in one half, 0.03 in the other; the run has 0.01 in all: L2 0.02 sqrt(1/2), max 0.02, of 0.02
+awk '/^ZONE/ { n = 0; print; next } /^[A-Z]/ { print; next } { n++; print $1, $2, $3, $4, (n > 32 ? 0.03 : 0.01) }' same.dat >half.dat
+sed 's/^1 elas 1 1/1 elas 1 1e-9/' good.mpm >soft.mpm
+expect "error in parts of the range" 0 "velx  *7.07106.E-01  1.000000E+00  2.000000E-02" "$mpm3d" --error half.dat soft.mpm
+expect "a reference of the other style" 0 "velx" "$mpm3d" --error bare_anim.dat good.mpm
+sed '$d' same.dat >cut.dat
+expect "cut reference" 4 "'cut.dat' is cut: its last zone has 63 rows of 64" "$mpm3d" --error cut.dat good.mpm
+sed '7s/.*/1 2 3/' same.dat >damaged.dat
+expect "damaged reference" 4 "damaged.dat:7: not a line" "$mpm3d" --error damaged.dat good.mpm
+expect "missing reference" 4 "cannot read 'none.dat'" "$mpm3d" --error none.dat good.mpm
+sed 's/I=64, //; $d' same.dat >fewer.dat
+expect "reference of fewer particles" 1 "the run ends with 64 particles to show, the last zone of 'fewer.dat' has 63" "$mpm3d" --error fewer.dat good.mpm
+{ sed 's/I=64, //' same.dat; tail -n 1 same.dat; } >more.dat
+expect "reference of more particles" 1 "'more.dat' has 65 rows, the deck only 64" "$mpm3d" --error more.dat good.mpm
+sed 's/"X" "Y" "Z" "mat" "velx"/"A" "B" "C" "D" "E"/' same.dat >names.dat
+expect "reference of other names" 1 "no variable of the deck's outr" "$mpm3d" --error names.dat good.mpm
+grep -v tecp good.mpm >silent.mpm
+expect "error without tecp" 1 "the deck has no tecp" "$mpm3d" --error same.dat silent.mpm
+expect "error without a file" 1 "has to follow '--error'" "$mpm3d" good.mpm --error
+
 # a full disk, a folder that can't be written
 mkdir -p full && ln -sf /dev/full full/good_anim.dat
 if [ -e /dev/full ]; then
