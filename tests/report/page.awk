@@ -20,8 +20,6 @@ FNR == 1 { next }
 
 function escape(text) { gsub(/&/, "\\&amp;", text); gsub(/</, "\\&lt;", text); gsub(/>/, "\\&gt;", text); return text }
 
-function log10(x) { return log(x) / log(10) }
-
 # Whether row r has an error above zero.
 function has_error(r) { return error[r] != "nan" && error[r] + 0 > 0 }
 
@@ -70,23 +68,32 @@ function next_on_front(c, last,    r, best) {
     return best
 }
 
+# The order of each scheme between its two finest runs with an error, at the first time step.
+function print_orders(c,    r, q, text, finest) {
+    split("", finest)
+    for (r = from[c]; r <= to[c]; r++)
+        if ((dtsc[r] == dtsc[from[c]] || dtsc[r] == "-") && order_of(r, c) != "") finest[scheme[r]] = r
+    for (r = from[c]; r <= to[c]; r++)
+        if (finest[scheme[r]] == r) text = text (text ? ", " : "") scheme[r] " " order_of(r, c)
+    if (text) print "<p>Order of convergence between the two finest runs: " text ".</p>"
+}
+
 # Which runs are worth it: the front in words; what the schemes beside it miss.
-function print_verdict(c,    r, last, text, count, i, s, best, n_bad, bad, first_good, k) {
+function print_verdict(c,    r, q, last, text, count, best) {
     split("", told); split("", winner); split("", others)
-    n_bad = 0
     while ((r = next_on_front(c, last)) > 0) {
         text = text (last ? "; " : "") "from " seconds[r] " s on " run_name(r) " (error " error[r] ")"
         winner[scheme[r]] = 1; told[r] = 1; last = r; count++
     }
-    if (!count) { print "<p>No run has an error: nothing can be said.</p>"; return }
-    print "<p>Least error for the time spent: " text ".</p>"
+    print count ? "<p>Least error for the time spent: " text ".</p>" : "<p>No run has an error: nothing can be said.</p>"
+    print_orders(c)
     text = ""
     for (r = from[c]; r <= to[c]; r++)
         if (has_error(r) && !(scheme[r] in winner) && !(scheme[r] in others)) {
             others[scheme[r]] = 1
             best = r
-            for (k = from[c]; k <= to[c]; k++)
-                if (has_error(k) && scheme[k] == scheme[r] && error[k] + 0 < error[best] + 0) best = k
+            for (q = from[c]; q <= to[c]; q++)
+                if (has_error(q) && scheme[q] == scheme[r] && error[q] + 0 < error[best] + 0) best = q
             text = text (text ? ", " : "") scheme[r] " (best " error[best] ", " sprintf("%.3g", error[best] / error[last]) " times the least)"
         }
     if (text) print "<p>Never on the front: " text ".</p>"
@@ -122,7 +129,7 @@ END {
     print "<h1>Accuracy and cost</h1>"
     printf "<p>%s on %s: %d runs of size <i>%s</i> in %d s, one after another on one thread. ", version, machine, rows, size, seconds_all
     print "Errors are relative to the answer that stands with each case. Run time is the whole run with reading and output, in"
-    print "steps of a millisecond (less counts as one); memory is that of particles and grid; a particle-step is one step of one"
+    print "steps of a millisecond (less counts as one), the least of three where it is below 0.1 s; memory is that of particles and grid; a particle-step is one step of one"
     print "particle, for the static method (quas) one application of the stiffness to it. The front of Pareto joins the runs that no"
     print "other run of the case beats in both error and time (bold in the tables). The same numbers stand in"
     print "<a href=table.txt>table.txt</a>.</p><ul>"

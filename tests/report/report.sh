@@ -68,6 +68,11 @@ one_run() {
     status=$?
     numbers="nan nan nan 0" found=nan
     [ -f "$work/$job.out" ] && numbers=$(read_log)
+    for repetition in 2 3; do # short times scatter: the least of three
+        [ "$status" -eq 0 ] && echo "$numbers" | awk '{ exit $1 > 0.1 }' || break
+        "$build/mpm3d" --quiet --threads 1 -o "$work" "$work/$job.mpm" >"$work/$job.said" 2>&1
+        numbers=$({ echo "$numbers"; read_log; } | sort -n | head -n 1)
+    done
     step=${numbers##* }
     [ "$status" -eq 0 ] && found=$(measure 2>>"$work/$job.said")
     echo "$case_name $scheme $cells $dtsc $status ${found:-nan} ${numbers% *}" | tee -a "$runs"

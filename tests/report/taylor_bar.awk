@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #: A copper cylinder of radius 3.81 and length 25.4 mm strikes a rigid wall at 190 m/s, a quarter of it (the data of
 #: decks/mpm3d/taylor_copper.mpm). Value: its length, mm, after 0.08 ms, when it has come to rest.
-#: No closed form: the run with the most cells of the scheme musl is the answer, and has no error.
+#: No closed form: the run with the most cells of the scheme musl is the answer.
 BEGIN {
     s = 3.81 / cells / 2
     if (what == "deck") print_deck(2 * s)
