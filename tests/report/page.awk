@@ -7,6 +7,7 @@ FNR == NR {
     split(field[2], part, " ")
     program[field[1]] = part[1]
     answers[field[1]] = field[7]
+    good_to[field[1]] = field[8] + 0
     next
 }
 FNR == 1 { next }
@@ -20,16 +21,17 @@ FNR == 1 { next }
 
 function escape(text) { gsub(/&/, "\\&amp;", text); gsub(/</, "\\&lt;", text); gsub(/>/, "\\&gt;", text); return text }
 
-# Whether row r has an error above zero.
-function has_error(r) { return error[r] != "nan" && error[r] + 0 > 0 }
+# Whether row r has an error, and that error; one below what the answer is good to counts as that.
+function has_error(r) { return error[r] != "nan" && error_in(r) > 0 }
+function error_in(r) { return error[r] + 0 < good_to[name[r]] ? good_to[name[r]] : error[r] + 0 }
 
 # Marks the rows that no row of the case beats in both error and seconds.
 function mark_front(c,    r, q) {
     for (r = from[c]; r <= to[c]; r++) {
         on_front[r] = has_error(r)
         for (q = from[c]; on_front[r] && q <= to[c]; q++)
-            if (has_error(q) && error[q] + 0 <= error[r] + 0 && seconds[q] + 0 <= seconds[r] + 0 &&
-                (error[q] + 0 < error[r] + 0 || seconds[q] + 0 < seconds[r] + 0)) on_front[r] = 0
+            if (has_error(q) && error_in(q) <= error_in(r) && seconds[q] + 0 <= seconds[r] + 0 &&
+                (error_in(q) < error_in(r) || seconds[q] + 0 < seconds[r] + 0)) on_front[r] = 0
     }
 }
 
@@ -39,7 +41,8 @@ function order_of(r, c,    q, coarse) {
         if (scheme[q] == scheme[r] && dtsc[q] == dtsc[r] && cells[q] + 0 < cells[r] + 0 &&
             (!coarse || cells[q] + 0 > cells[coarse] + 0)) coarse = q
     if (!coarse || !has_error(r) || !has_error(coarse)) return ""
-    return sprintf("%.2f", log(error[coarse] / error[r]) / log(cells[r] / cells[coarse]))
+    if (error_in(r) == good_to[c] || error_in(coarse) == good_to[c]) return "" # no orders below the answer
+    return sprintf("%.2f", log(error_in(coarse) / error_in(r)) / log(cells[r] / cells[coarse]))
 }
 
 function print_description(c,    line, path) {
@@ -49,6 +52,7 @@ function print_description(c,    line, path) {
         if (line ~ /^#:/) print escape(substr(line, 4))
     close(path)
     print "</p>"
+    if (good_to[c] > 0) print "<p>The answer is good to " good_to[c] "; smaller errors count as that here and in the charts.</p>"
 }
 
 function print_chart(c, which, text,    path, line, is_there) {
@@ -93,8 +97,8 @@ function print_verdict(c,    r, q, last, text, count, best) {
             others[scheme[r]] = 1
             best = r
             for (q = from[c]; q <= to[c]; q++)
-                if (has_error(q) && scheme[q] == scheme[r] && error[q] + 0 < error[best] + 0) best = q
-            text = text (text ? ", " : "") scheme[r] " (best " error[best] ", " sprintf("%.3g", error[best] / error[last]) " times the least)"
+                if (has_error(q) && scheme[q] == scheme[r] && error_in(q) < error_in(best)) best = q
+            text = text (text ? ", " : "") scheme[r] " (best " error[best] ", " sprintf("%.3g", error_in(best) / error_in(last)) " times the least)"
         }
     if (text) print "<p>Never on the front: " text ".</p>"
     print_spoilt(c)

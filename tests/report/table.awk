@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Rows of runs.txt with their errors: awk -f table.awk CASES RUNS. The answers are in the last field of CASES.
+# Rows of runs.txt with their errors: awk -f table.awk CASES RUNS. The answers are in field 7 of CASES.
 FNR == NR {
-    n = split($0, field, "|")
+    split($0, field, "|")
     gsub(/ /, "", field[1])
-    sub(/^ */, "", field[n]); sub(/ *$/, "", field[n])
-    answer[field[1]] = field[n]
+    sub(/^ */, "", field[7]); sub(/ *$/, "", field[7])
+    answer[field[1]] = field[7]
     next
 }
 { rows++; row[rows] = $0 }
