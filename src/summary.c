@@ -46,18 +46,36 @@ void summary_start(const struct mpm *mpm, FILE *stream)
     fprintf(stream, "kinetic energy %.9E, internal energy %.9E\n\n", mpm->sums.kinetic, mpm->sums.internal);
 }
 
+/* A particle that went wrong: where it is, in which cell, of which law. */
+static void print_particle(const struct mpm *mpm, long id, FILE *stream)
+{
+    const struct store *store = mpm->store;
+    const struct cell_frame *frame = &mpm->cells->frame;
+    const size_t p = (size_t)store->index_of_id[id];
+    const int32_t body = store->integer[COLUMN_BODY][p];
+    fprintf(stream, "       particle %ld of body %d, law %s, at (%.6g, %.6g, %.6g), velocity (%.6g, %.6g, %.6g), ", id + 1, body + 1,
+            mpm->material_of_body[body]->law->name, store->real[COLUMN_POSITION][0][p], store->real[COLUMN_POSITION][1][p],
+            store->real[COLUMN_POSITION][2][p], store->real[COLUMN_VELOCITY][0][p], store->real[COLUMN_VELOCITY][1][p],
+            store->real[COLUMN_VELOCITY][2][p]);
+    double cell[3];
+    bool is_inside = true;
+    for (int a = 0; a < 3; a++) {
+        const double x = store->real[COLUMN_POSITION][a][p];
+        cell[a] = fmin(floor((x - frame->low[a]) / frame->size) + 1, frame->cells[a]);
+        is_inside = is_inside && x >= frame->low[a] && x <= frame->high[a];
+    }
+    if (is_inside)
+        fprintf(stream, "cell %.0f %.0f %.0f\n", cell[0], cell[1], cell[2]);
+    else
+        fprintf(stream, "outside the grid\n");
+}
+
 void summary_instability(const struct mpm *mpm, const struct instability *instability, FILE *stream)
 {
     fprintf(stream, "mpm3d: the run is stopped at step %ld, time %.6E: %s\n", mpm->step, mpm->time,
             instability->cause);
-    if (instability->particle >= 0) {
-        size_t p = (size_t)mpm->store->index_of_id[instability->particle];
-        fprintf(stream, "       particle %ld of body %d at (%.6g, %.6g, %.6g), velocity (%.6g, %.6g, %.6g)\n",
-                instability->particle + 1, mpm->store->integer[COLUMN_BODY][p] + 1,
-                mpm->store->real[COLUMN_POSITION][0][p], mpm->store->real[COLUMN_POSITION][1][p],
-                mpm->store->real[COLUMN_POSITION][2][p], mpm->store->real[COLUMN_VELOCITY][0][p],
-                mpm->store->real[COLUMN_VELOCITY][1][p], mpm->store->real[COLUMN_VELOCITY][2][p]);
-    }
+    if (instability->particle >= 0)
+        print_particle(mpm, instability->particle, stream);
     fprintf(stream, "       %s; the output up to the step before is kept\n", instability->advice);
 }
 

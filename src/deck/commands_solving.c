@@ -232,6 +232,12 @@ static void note_fixed_step(struct reader *reader, const struct deck_word *word,
     reader->fixed_step_place = word->place;
 }
 
+static void note_light_mass(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)values;
+    reader->light_mass_place = word->place;
+}
+
 const struct keyword solving_keywords[] = {
     {.name = "endt", .long_name = "endtime",
      .arguments = (const struct argument[]){{"time", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
@@ -263,6 +269,14 @@ const struct keyword solving_keywords[] = {
      .doc = "all masses times a factor, for larger steps where inertia does not matter; weight stays (1)"},
     {.name = "dtfx", .arguments = (const struct argument[]){{"step", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
      .field = offsetof(struct scene, fixed_step), .apply = note_fixed_step, .doc = "fixed time step in place of dtsc, checked against the stable one; 0: none"},
+    {.name = "dtmi", .arguments = (const struct argument[]){{"step", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
+     .field = offsetof(struct scene, least_step),
+     .doc = "the run is stopped as unstable when its time step falls below this one; 0: a millionth of the first one"},
+    {.name = "lite", .arguments = (const struct argument[]){{"share", NULL, ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
+     .field = offsetof(struct scene, light_mass), .apply = note_light_mass,
+     .doc = "for usl, unstable at nodes of small mass: nodes with less than this share of the mass of a full cell (of the "
+            "lightest material) strain and move particles with less of their acceleration; momentum stays (0; 0.01 is a "
+            "good one)"},
     {.name = "drda", .apply = read_kinetic_damping,
      .doc = "kinetic damping: velocities are set to zero whenever the kinetic energy falls"},
     {.name = "quas", .long_name = "quasistatic",
@@ -318,6 +332,13 @@ static void check_contact(struct reader *reader)
                           "'cont' does not go with 'sgmp'; take gimp or bimp");
     if (scene->is_total)
         diagnostics_error(reader->diagnostics, reader->contact_place, "'cont' does not go with 'TLmp'");
+}
+
+static void check_light_mass(struct reader *reader)
+{
+    const struct scene *scene = reader->scene;
+    if (scene->light_mass > 0 && (scene->scheme != SCHEME_USL || scene->finds_equilibrium))
+        diagnostics_error(reader->diagnostics, reader->light_mass_place, "'lite' is only for usl; expected 'usl on'");
 }
 
 static void check_small(struct reader *reader)
@@ -382,6 +403,7 @@ void reader_finish_solving(struct reader *reader)
         check_total(reader);
     if (scene->is_small)
         check_small(reader);
+    check_light_mass(reader);
     if (scene->finds_equilibrium)
         check_equilibrium(reader);
     if (scene->transfer == TRANSFER_AFFINE && scene->interpolation != INTERPOLATION_LINEAR)

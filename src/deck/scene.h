@@ -156,6 +156,8 @@ struct scene {
     double nodal_damping[2]; /* ndam: force per velocity on each node; the second holds after the last opening */
     double mass_scale;       /* mscl */
     double fixed_step;       /* dtfx; 0: the stable one */
+    double least_step;       /* dtmi; 0: a fraction of the first one */
+    double light_mass;       /* lite: share of a full cell's mass below which nodes are light; 0: none */
     bool finds_equilibrium;       /* quas: the run goes from equilibrium to equilibrium */
     double equilibrium_tolerance; /* of unbalanced forces, relative */
     long equilibrium_steps;       /* Newton steps, at most */

@@ -9,6 +9,11 @@
 /* A step below this fraction of the first one is a slow blow-up. */
 static const double LEAST_STEP_FRACTION = 1e-6;
 
+/* Energy beyond this many times all that was given, for so many steps in a row, came from nowhere. Sound
+ * runs stay below 0.4, also where two bodies that overlap begin to part. */
+static const double ENERGY_FACTOR = 4;
+enum { GROWING_STEPS = 20 };
+
 static bool is_finite_particle(const struct store *store, size_t p)
 {
     double sum = store->real[COLUMN_VOLUME][0][p] + store->real[COLUMN_ENERGY][0][p];
@@ -70,37 +75,108 @@ static bool are_finite(const struct sums *sums)
                     + sums->fastest);
 }
 
+/* Stress changes that are no strain do work that nobody counts. */
+static bool has_uncounted_work(const struct mpm *mpm)
+{
+    for (size_t i = 0; i < mpm->scene->n_materials; i++) {
+        const struct scene_transformation *transformation = &mpm->scene->materials[i].transformation;
+        if (transformation->has_residual || transformation->has_phase || transformation->has_heat)
+            return true;
+    }
+    return false;
+}
+
+void mpm_watch_energy(struct mpm *mpm)
+{
+    mpm->energy_supply = fmax(mpm->energy_supply, fabs(mpm->start_energy) + fabs(mpm->external_work));
+    const bool is_beyond = mpm->energy_supply > 0 && mpm->unbalanced > ENERGY_FACTOR * mpm->energy_supply;
+    mpm->growing_steps = is_beyond && !has_uncounted_work(mpm) ? mpm->growing_steps + 1 : 0;
+}
+
+/* The messages: each fills the instability when its trouble is there. */
+
+static bool find_not_finite(const struct mpm *mpm, struct instability *result)
+{
+    if (are_finite(&mpm->sums))
+        return false;
+    result->particle = first_not_finite(mpm);
+    snprintf(result->cause, sizeof result->cause, "a value is not finite");
+    return true;
+}
+
+static bool find_leap(const struct mpm *mpm, struct instability *result)
+{
+    const double cells = mpm->sums.fastest * fmax(mpm->taken_step, mpm->time_step) / mpm->scene->cell_size;
+    if (cells <= 1)
+        return false;
+    result->particle = fastest_particle(mpm);
+    snprintf(result->cause, sizeof result->cause, "a particle moves %.3g cells a step", cells);
+    if (mpm->step == 1)
+        snprintf(result->advice, sizeof result->advice,
+                 "the first step does not know the speed of particles: try dtsc %.2g", 0.2 * mpm->scene->step_scale / cells);
+    return true;
+}
+
+static bool find_used_up(const struct mpm *mpm, struct instability *result)
+{
+    if (mpm->sums.least_volume > 0)
+        return false;
+    result->particle = least_volume_particle(mpm);
+    snprintf(result->cause, sizeof result->cause, "a particle's volume is %.3g", mpm->sums.least_volume);
+    if (mpm->scene->scheme != SCHEME_USL)
+        snprintf(result->advice, sizeof result->advice, "try a smaller dtsc; a body crushed beyond its law's reach also does this");
+    return true;
+}
+
+static bool find_small_step(const struct mpm *mpm, struct instability *result)
+{
+    const double floor = mpm->scene->least_step;
+    if (mpm->time_step >= (floor > 0 ? floor : LEAST_STEP_FRACTION * mpm->first_time_step))
+        return false;
+    result->particle = fastest_particle(mpm);
+    snprintf(result->cause, sizeof result->cause,
+             "the time step fell to %.3g, %.3g of the first one, as a particle has speed %.3g", mpm->time_step,
+             mpm->time_step / mpm->first_time_step, mpm->sums.fastest);
+    if (floor > 0)
+        snprintf(result->advice, sizeof result->advice, "a smaller dtmi lets it go on");
+    return true;
+}
+
+static bool find_growth(const struct mpm *mpm, struct instability *result)
+{
+    if (mpm->growing_steps < GROWING_STEPS)
+        return false;
+    result->particle = fastest_particle(mpm);
+    snprintf(result->cause, sizeof result->cause,
+             "energy grows by itself: %.3g more than the start and external forces gave, %.3g", mpm->unbalanced,
+             mpm->energy_supply);
+    snprintf(result->advice, sizeof result->advice, "%s",
+             mpm->scene->interpolation == INTERPOLATION_LINEAR ? "try a smaller dtsc, or gimp or bimp where particles cross cells"
+                                                               : "try a smaller dtsc");
+    return true;
+}
+
+static bool find_lost(const struct mpm *mpm, struct instability *result)
+{
+    const int32_t lost = mpm->cells->count - mpm->cells->in_cells;
+    if (mpm->scene->lost != LOST_STOP || lost == 0)
+        return false;
+    result->particle = mpm->store->integer[COLUMN_ID][mpm->cells->order[mpm->cells->in_cells]];
+    snprintf(result->cause, sizeof result->cause, "%d particles left the grid", lost);
+    snprintf(result->advice, sizeof result->advice, "take a larger grid, or lost keep or lost drop");
+    return true;
+}
+
 struct instability mpm_check(const struct mpm *mpm)
 {
+    static bool (*const finders[])(const struct mpm *, struct instability *) = {
+        find_not_finite, find_leap, find_used_up, find_small_step, find_growth, find_lost};
     struct instability result = {.particle = -1};
-    const struct sums *sums = &mpm->sums;
-    const char *smaller = "try a smaller dtsc";
-    if (!are_finite(sums)) {
-        result.particle = first_not_finite(mpm);
-        snprintf(result.cause, sizeof result.cause, "a value is not finite");
-    } else if (sums->least_volume <= 0) {
-        result.particle = least_volume_particle(mpm);
-        snprintf(result.cause, sizeof result.cause, "a particle's volume is %.3g", sums->least_volume);
-        smaller = "try a smaller dtsc; a body crushed beyond its law's reach also does this";
-    } else if (sums->fastest * mpm->time_step > mpm->scene->cell_size) {
-        result.particle = fastest_particle(mpm);
-        snprintf(result.cause, sizeof result.cause, "a particle moves %.3g cells a step",
-                 sums->fastest * mpm->time_step / mpm->scene->cell_size);
-    } else if (mpm->time_step < LEAST_STEP_FRACTION * mpm->first_time_step) {
-        result.particle = fastest_particle(mpm);
-        snprintf(result.cause, sizeof result.cause,
-                 "the time step fell to %.3g of the first one, as a particle has speed %.3g",
-                 mpm->time_step / mpm->first_time_step, sums->fastest);
-        smaller = mpm->scene->scheme == SCHEME_USL ? "try musl; usl is unstable at nodes of small mass" : smaller;
-    } else if (mpm->scene->lost == LOST_STOP && mpm->cells->in_cells < mpm->cells->count) {
-        result.particle = mpm->store->integer[COLUMN_ID][mpm->cells->order[mpm->cells->in_cells]];
-        snprintf(result.cause, sizeof result.cause, "%d particles left the grid", mpm->cells->count - mpm->cells->in_cells);
-        smaller = "take a larger grid, or lost keep or lost drop";
-    } else {
-        return result;
-    }
-    result.is_stopped = true;
-    snprintf(result.advice, sizeof result.advice, "%s", smaller);
+    snprintf(result.advice, sizeof result.advice, "%s",
+             mpm->scene->scheme == SCHEME_USL ? "try a smaller dtsc, musl, or lite with usl, which is unstable at nodes of small mass"
+                                              : "try a smaller dtsc");
+    for (size_t i = 0; i < sizeof finders / sizeof finders[0] && !result.is_stopped; i++)
+        result.is_stopped = finders[i](mpm, &result);
     return result;
 }
 

@@ -244,6 +244,19 @@ double grid_damped_energy(const struct grid *grid)
     return energy;
 }
 
+/* Light nodes strain and move particles with m / light_mass of their acceleration: the forces on them do
+ * not go to zero with their mass. Particles still take all of the acceleration, so momentum stays. */
+static void calm_block(struct grid *grid, int32_t b, double step)
+{
+    const double *restrict mass = grid_field(grid, b, NODE_MASS);
+    for (int a = 0; a < 3; a++) {
+        double *restrict velocity = grid_field(grid, b, NODE_MOMENTUM + a);
+        const double *restrict acceleration = grid_field(grid, b, NODE_FORCE + a);
+        for (int n = 0; n < BLOCK_CELLS; n++)
+            velocity[n] -= mass[n] < grid->light_mass ? (1 - mass[n] / grid->light_mass) * acceleration[n] * step : 0;
+    }
+}
+
 THREADS_VECTORISED
 static void divide_block(struct grid *grid, int32_t b)
 {
@@ -264,6 +277,8 @@ void grid_divide(struct grid *grid, double step)
         divide_block(grid, b);
         if (grid->damping > 0)
             damp_block(grid, b, step);
+        if (grid->light_mass > 0)
+            calm_block(grid, b, step);
     }
 }
 
@@ -292,6 +307,8 @@ void grid_integrate_block(struct grid *grid, int32_t b, double step)
     integrate_block(grid, b, step);
     if (grid->damping > 0)
         damp_block(grid, b, step);
+    if (grid->light_mass > 0)
+        calm_block(grid, b, step);
 }
 
 void grid_integrate(struct grid *grid, int first, int count, double step)

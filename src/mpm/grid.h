@@ -28,6 +28,7 @@ struct grid {
     long boundary[6];
     int boundary_layers; /* the codes act on this many outermost node layers */
     double mass_cutoff;
+    double light_mass; /* nodes below it are light: see grid_integrate_block; 0: none */
     double damping; /* force per velocity on each node */
     bool may_damp;  /* at some time */
     const struct scene_hold *holds; /* of the scene */

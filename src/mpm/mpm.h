@@ -102,6 +102,7 @@ struct mpm {
     long step;
     double time;
     double time_step;       /* of the step under way, or of the next one */
+    double taken_step;      /* of the last step */
     double first_time_step;
     double momentum_factor; /* 1/2 in the first step */
     double load_factor;     /* 1, or less while QuLo's loads grow */
@@ -110,6 +111,8 @@ struct mpm {
     double external_work;   /* of all forces since the start */
     double removed_energy;  /* by kinetic damping */
     double unbalanced;      /* energy that is not accounted for, kinetic and internal at one time */
+    double energy_supply;   /* largest energy that the start and external forces have given so far */
+    long growing_steps;     /* so many steps has the energy been beyond all that was given */
     double previous_kinetic;
     double start_momentum[3];
 };
@@ -139,6 +142,9 @@ struct instability {
     char cause[200];
     char advice[200];
 };
+
+/* Whether energy is far beyond what the start and external forces gave, and for how long; once a step. */
+void mpm_watch_energy(struct mpm *mpm);
 
 /* Looks at the sums of the last step (and at particles only when something is wrong). */
 struct instability mpm_check(const struct mpm *mpm);

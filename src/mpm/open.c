@@ -234,6 +234,15 @@ static struct cell_frame frame_of(const struct scene *scene)
     return frame;
 }
 
+/* Nodes below this mass are light. */
+static double light_mass(const struct scene *scene)
+{
+    double least = INFINITY;
+    for (size_t i = 0; i < scene->n_materials; i++)
+        least = fmin(least, scene->materials[i].material.density);
+    return scene->light_mass > 0 ? scene->light_mass * least * scene->mass_scale * pow(scene->cell_size, 3) : 0;
+}
+
 static void create_cells(struct mpm *mpm)
 {
     const struct scene *scene = mpm->scene;
@@ -251,6 +260,7 @@ static void create_cells(struct mpm *mpm)
     };
     mpm->grid = grid_open(mpm->cells, form, scene->boundary, scene->mass_cutoff);
     grid_hold(mpm->grid, scene->holds, scene->n_holds);
+    mpm->grid->light_mass = light_mass(scene);
     mpm->grid->damping = scene->nodal_damping[0];
     mpm->grid->may_damp = scene->nodal_damping[0] > 0 || scene->nodal_damping[1] > 0;
     grid_follow(mpm->grid);

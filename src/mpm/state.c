@@ -23,6 +23,8 @@ static const struct {
     FIELD(external_work),
     FIELD(removed_energy),
     FIELD(unbalanced),
+    FIELD(energy_supply),
+    FIELD(growing_steps),
     FIELD(previous_kinetic),
     FIELD(start_momentum),
 };

@@ -232,6 +232,7 @@ void mpm_step(struct mpm *mpm)
     mpm->step++;
     mpm->updates += mpm->cells->count;
     mpm->time += mpm->time_step;
+    mpm->taken_step = mpm->time_step;
     mpm->momentum_factor = mpm->step == 1 ? 0.5 : 1;
     mpm->load_factor = mpm->scene->loading_time > 0 ? fmin(1, mpm->time / mpm->scene->loading_time) : 1;
     mpm_clear_sums(mpm);
@@ -245,6 +246,7 @@ void mpm_step(struct mpm *mpm)
     if (mpm->scene->lost != LOST_DROP)
         add_particles(mpm, frozen_from, mpm->cells->count, &mpm->sums);
     balance_energy(mpm, &before, work_before, removed_before);
+    mpm_watch_energy(mpm);
     mpm_discard_grid(mpm);
     timers_enter(mpm->timers, PHASE_SUMS);
     mpm->time_step = mpm_stable_step(mpm, mpm->sums.fastest);

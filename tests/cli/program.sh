@@ -153,7 +153,7 @@ check "SIGTERM ends with status 130" sh -c 'test "$(cat status)" = 130'
 # extreme scenes: right, or stopped with step, time and particle
 deck 100 "dtsc 2.5" "velo" "node 1 0.1 0.05 0" "endv" >unstable.mpm
 expect "dtsc 2.5" 3 "is stopped at step [0-9]*, time [0-9.E+-]*: " "$mpm3d" unstable.mpm
-expect "dtsc 2.5 names the particle" 3 "particle [0-9]* of body 1 at" "$mpm3d" unstable.mpm
+expect "dtsc 2.5 names the particle" 3 "particle [0-9]* of body 1, law elas, at .*, cell [0-9]* [0-9]* [0-9]*$" "$mpm3d" unstable.mpm
 check "the last good output is kept" "$build/tecstat" unstable_anim.dat max velx
 deck 200 "velo" "body 1 0.5 0.3 0.2" "endv" >leaves.mpm
 expect "body leaves the grid" 0 "64 particles left the grid and are frozen (first ids:" "$mpm3d" leaves.mpm

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Every deck of decks/ stands in numbers.table or numbers_long.table, and the comment at its head
-# says the numbers that the tables expect and how long it takes: `Takes N s`. sh tests/decks/heads.sh BUILD
+# Every deck of decks/ stands in numbers.table, numbers_long.table or endings.table, and the comment at
+# its head says the numbers or words that the tables expect and how long it takes: `Takes N s`. sh tests/decks/heads.sh BUILD
 cd "$(dirname "$0")/../.." || exit 2
 tables="tests/decks/numbers.table tests/decks/numbers_long.table"
 failed=0
@@ -11,7 +11,13 @@ for deck in $(find decks -name '*.mpm' | sort); do
     said=1
     # shellcheck disable=SC2086 # the two names are to be split
     numbers=$(awk -F'|' -v deck="$deck" '{ gsub(/ /, "", $1); gsub(/ /, "", $4) } $1 == deck { print $4 }' $tables | sort -u)
-    [ "$numbers" ] || { echo "FAIL $deck is in no table of tests/decks"; said=0; }
+    # decks that must stop: the words of their message
+    words=$(awk -F'|' -v deck="$deck" '{ gsub(/ /, "", $1); sub(/^ */, "", $3); sub(/ *$/, "", $3) } $1 == deck { print $3 }' tests/decks/endings.table)
+    case "$head" in
+    *"$words"*) ;;
+    *) echo "FAIL $deck: its head does not say '$words', which endings.table expects"; said=0 ;;
+    esac
+    [ "$numbers$words" ] || { echo "FAIL $deck is in no table of tests/decks"; said=0; }
     for number in $numbers; do
         case "$head" in
         *[!0-9.]"$number"[!0-9]*) ;;
