@@ -102,6 +102,10 @@ study: $(build)/tests/test_wave $(build)/tests/test_conservation
 report: all
 	@sh tests/report/report.sh $(build) report $(if $(QUICK),quick,full)
 
+# The largest stable time step by scheme and shape, and how extreme scenes end: report/stability.txt.
+stability: all
+	@QUICK=$(QUICK) sh tests/stability/stability.sh $(build) report
+
 # The last state of decks of each chapter of the thesis, as pictures in report/pictures.
 pictures: all
 	@sh tools/pictures.sh $(build) report/pictures
@@ -141,13 +145,14 @@ help:
 	@echo "make bench    speed: cost by phase, threads, size; against this machine's memory bandwidth"
 	@echo "make study    accuracy: convergence and conservation by scheme"
 	@echo "make report   accuracy against run time by case and scheme: report/index.html; QUICK=1 for the short form"
+	@echo "make stability the largest stable step by scheme and shape, extreme scenes (QUICK=1: less of it)"
 	@echo "make pictures draws the last state of decks of each chapter of the thesis (1 minute)"
 	@echo "make manual   writes MANUAL.md from the program's tables"
 	@echo "make fuzz     fuzzes the deck reader (clang)"
 	@echo "make install  PREFIX=$(PREFIX), DESTDIR; make uninstall; make clean"
 	@echo "options: CC, CFLAGS, NATIVE=1 (this machine's instructions), SAN=1 (sanitizers)"
 
-.PHONY: all run test decks check bench study manual fuzz install uninstall clean help pictures report
+.PHONY: all run test decks check bench study manual fuzz install uninstall clean help pictures report stability
 .PHONY: always
 .SECONDARY: $(tool_parts)
 .DEFAULT_GOAL := all

@@ -171,12 +171,16 @@ struct instability mpm_check(const struct mpm *mpm)
 {
     static bool (*const finders[])(const struct mpm *, struct instability *) = {
         find_not_finite, find_leap, find_used_up, find_small_step, find_growth, find_lost};
-    struct instability result = {.particle = -1};
-    snprintf(result.advice, sizeof result.advice, "%s",
-             mpm->scene->scheme == SCHEME_USL ? "try a smaller dtsc, musl, or lite with usl, which is unstable at nodes of small mass"
-                                              : "try a smaller dtsc");
+    struct instability result;
+    result.is_stopped = false;
+    result.particle = -1;
+    result.advice[0] = 0;
     for (size_t i = 0; i < sizeof finders / sizeof finders[0] && !result.is_stopped; i++)
         result.is_stopped = finders[i](mpm, &result);
+    if (result.is_stopped && !result.advice[0])
+        snprintf(result.advice, sizeof result.advice, "%s",
+                 mpm->scene->scheme == SCHEME_USL ? "try a smaller dtsc, musl, or lite with usl, which is unstable at nodes of small mass"
+                                                  : "try a smaller dtsc");
     return result;
 }
 
