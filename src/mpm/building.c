@@ -76,6 +76,10 @@ static void choose_damping(struct mpm *mpm)
         mpm->grid->damping = mpm->scene->nodal_damping[schedule_left(mpm->schedule) == 0];
 }
 
+/* Particles open in the order of their layers, not of cells: they are sorted in memory when more than this
+ * part of them is new. */
+static const double MOST_SCATTERED = 0.02;
+
 /* Lets the next n closed particles take part; what they hold counts as work done on the run. */
 static void admit(struct mpm *mpm, int32_t n)
 {
@@ -124,6 +128,8 @@ bool building_step(struct mpm *mpm, long step)
         admit(mpm, (int32_t)n);
     if (n > 0 && mpm->heat)
         take_energy(mpm, heat_switch_on(mpm->heat, mpm->scene, mpm->store, mpm->cells, mpm->cells->count - 1));
+    if (mpm->scene->sorts && mpm->cells->moved > MOST_SCATTERED * mpm->cells->count)
+        cell_list_sort(mpm->cells, mpm->store);
     return n > 0;
 }
 
