@@ -9,25 +9,7 @@ trap 'rm -rf "$folder"' EXIT INT TERM
 cd "$folder" || exit 2
 failures=0
 
-# expect NAME STATUS PATTERN COMMAND...: exit status and a pattern in what it prints
-expect() {
-    name=$1 status=$2 pattern=$3; shift 3
-    "$@" >printed 2>&1
-    found=$?
-    if [ "$found" -ne "$status" ]; then
-        echo "FAIL $name: exit status $found instead of $status"; sed 's/^/    /' printed | head -n 20; failures=1
-    elif ! grep -q -e "$pattern" printed; then
-        echo "FAIL $name: no '$pattern' in what it prints"; sed 's/^/    /' printed | head -n 20; failures=1
-    else
-        echo "ok $name"
-    fi
-}
-
-# check NAME COMMAND...: the command must succeed
-check() {
-    name=$1; shift
-    if "$@" >printed 2>&1; then echo "ok $name"; else echo "FAIL $name"; sed 's/^/    /' printed | head -n 20; failures=1; fi
-}
+. "$root/tests/cli/expect.inc"
 
 # deck END_TIME EXTRA...: an elastic block of 64 points; the extra lines go before the end
 deck() {

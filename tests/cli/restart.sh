@@ -3,31 +3,14 @@
 # Checkpoints under bad conditions: signals, kill -9, full disk, folders that vanish, damaged and wrong
 # checkpoints. Nothing that was whole before may be lost. sh tests/cli/restart.sh BUILD
 build=$(cd "$1" && pwd) || exit 2
+here=$(cd "$(dirname "$0")" && pwd) || exit 2
 mpm3d=$build/mpm3d
 folder=$(mktemp -d) || exit 2
 trap 'rm -rf "$folder"' EXIT INT TERM
 cd "$folder" || exit 2
 failures=0
 
-# expect NAME STATUS PATTERN COMMAND...: exit status and a pattern in what it prints
-expect() {
-    name=$1 status=$2 pattern=$3; shift 3
-    "$@" >printed 2>&1
-    found=$?
-    if [ "$found" -ne "$status" ]; then
-        echo "FAIL $name: exit status $found instead of $status"; sed 's/^/    /' printed | head -n 20; failures=1
-    elif ! grep -q -e "$pattern" printed; then
-        echo "FAIL $name: no '$pattern' in what it prints"; sed 's/^/    /' printed | head -n 20; failures=1
-    else
-        echo "ok $name"
-    fi
-}
-
-# check NAME COMMAND...: the command must succeed
-check() {
-    name=$1; shift
-    if "$@" >printed 2>&1; then echo "ok $name"; else echo "FAIL $name"; sed 's/^/    /' printed | head -n 20; failures=1; fi
-}
+. "$here/expect.inc"
 
 # deck POINTS_ALONG_AN_EDGE END_TIME LINES...: an elastic cube; a unit of time is 1.1 steps
 deck() {

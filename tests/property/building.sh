@@ -129,33 +129,7 @@ sed 's/^usf on/usl on/; s/^cont.*/sgmp/; s/^open layer.*/open all/; s/^scan.*//'
 all_ways "all at once, usl, sgmp"
 
 # --- in balance after each opening ---
-cat >job.mpm <<'END'
-mpm3d a part in balance after each opening
-nbco 1
-nbbo 1
-nbmp 864
-nmat 1
-grid -0.4 2.4 -0.4 2.4 0 2.4
-dcel 0.2
-digits 17
-mate
-1 elas 4.5e-3 115000 0.34
-part bloc 1
-1 4.5e-3 0.1 0 0 0 12 12 6
-Ghost endG
-resi 1 -500 -200 10
-phas 1 0.998 1
-scan 0 45
-fixn -9 9 -9 9 0 0 1 1 1
-open layer every 3
-quas 1e-7
-endt 1 outt 2
-tecp
-para ascii
-outr seqv outr seqt outr laye outr stsx outr stxy outr disz
-curv seqv 500
-endi
-END
+cp "$here/equilibria.mpm" job.mpm
 all_ways "quas by layers"
 sed 's/^endi/smal endi/' job.mpm >next.mpm && mv next.mpm job.mpm
 all_ways "quas by layers, small displacements"

@@ -71,34 +71,7 @@ rm -f whole/job.rest* part/job.rest*
 same "the checkpoint before the last" part
 
 # static equilibrium, which takes no notice of endt: from the checkpoint before the last one
-cat >job.mpm <<'END'
-mpm3d a part in balance after each opening
-nbco 1
-nbbo 1
-nbmp 864
-nmat 1
-grid -0.4 2.4 -0.4 2.4 0 2.4
-dcel 0.2
-digits 17
-mate
-1 elas 4.5e-3 115000 0.34
-part bloc 1
-1 4.5e-3 0.1 0 0 0 12 12 6
-Ghost endG
-resi 1 -500 -200 10
-phas 1 0.998 1
-scan 0 45
-fixn -9 9 -9 9 0 0 1 1 1
-open layer every 3
-quas 1e-7
-endt 1 outt 2
-tecp
-para ascii
-outr seqv outr seqt outr laye outr stsx outr stxy outr disz
-curv seqv 500
-rest every 2 steps
-endi
-END
+sed 's/^endi/rest every 2 steps endi/' "$here/property/equilibria.mpm" >job.mpm
 for extra in "" smal "open group 144 every 1 ther 1 1e-5 300 0.25"; do
     if [ "${extra#open}" != "$extra" ]; then sed -i 's/^open layer.*//' job.mpm; fi
     sed -i "s/endi\$/$extra endi/" job.mpm
