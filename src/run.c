@@ -438,6 +438,10 @@ enum status run_close(struct run *run, enum status status)
         summary_end(run->mpm, &run->timers, seconds, status, run->log);
         if (!run->options.quiet)
             summary_end(run->mpm, &run->timers, seconds, status, stderr);
+        if (status == STATUS_FINISHED) {
+            summary_doubt(run->mpm, run->log);
+            summary_doubt(run->mpm, stderr);
+        }
         if (status == STATUS_FINISHED && run->options.reference)
             status = print_error(run, seconds);
         if (status == STATUS_INTERRUPTED)

@@ -194,3 +194,10 @@ void summary_end(const struct mpm *mpm, const struct timers *timers, double seco
         fprintf(stream, "%zu particles are still to open: the run ends before step %ld, that of the last opening\n", closed,
                 schedule_last_step(mpm->schedule));
 }
+
+void summary_doubt(const struct mpm *mpm, FILE *stream)
+{
+    if (!mpm->scene->finds_equilibrium && mpm_has_gained_energy(mpm))
+        fprintf(stream, "mpm3d: warning: %.0f %% of the energy came from nowhere: do not trust this run; try a smaller dtsc, gimp or "
+                "bimp\n", 100 * mpm_energy_error(mpm));
+}

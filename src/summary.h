@@ -14,6 +14,9 @@ void summary_start(const struct mpm *mpm, FILE *stream);
 /* Timer table by phase, cost per particle-step, particles lost, energy and momentum balance. */
 void summary_end(const struct mpm *mpm, const struct timers *timers, double seconds, enum status status, FILE *stream);
 
+/* A warning where a run came to its end with energy from nowhere; else nothing. */
+void summary_doubt(const struct mpm *mpm, FILE *stream);
+
 /* One line: run time, steps and cost per particle-step. */
 void summary_cost(const struct mpm *mpm, const struct timers *timers, double seconds, FILE *stream);
 

@@ -38,7 +38,7 @@ static void read_musl(struct reader *reader, const struct deck_word *word, const
 
 static void read_usl(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
-    (void)word;
+    reader->last_usl_place = word->place;
     switch_scheme(reader, values, "usl", SCHEME_USL);
 }
 
@@ -334,6 +334,22 @@ static void check_contact(struct reader *reader)
         diagnostics_error(reader->diagnostics, reader->contact_place, "'cont' does not go with 'TLmp'");
 }
 
+/* Beyond this share of the stable step blocks of particles blow up with usl (make stability). Wider shapes bear more. */
+static const double USL_STEP = 0.55;
+
+/* The default of dtsc stays that of MPM3D-F90, whose decks give the same numbers here. */
+static void warn_of_usl(struct reader *reader)
+{
+    const struct scene *scene = reader->scene;
+    const bool is_narrow = scene->interpolation == INTERPOLATION_LINEAR || scene->interpolation == INTERPOLATION_GIMP
+                        || scene->interpolation == INTERPOLATION_GIMP_OWN;
+    if (scene->scheme == SCHEME_USL && is_narrow && !scene->finds_equilibrium && scene->fixed_step == 0
+        && scene->step_scale > USL_STEP)
+        diagnostics_warning(reader->diagnostics, reader->last_usl_place,
+                            "'usl' blows up in many scenes when 'dtsc' is above %g, and it is %g here; take dtsc 0.5, or musl", USL_STEP,
+                            scene->step_scale);
+}
+
 static void check_light_mass(struct reader *reader)
 {
     const struct scene *scene = reader->scene;
@@ -404,6 +420,7 @@ void reader_finish_solving(struct reader *reader)
     if (scene->is_small)
         check_small(reader);
     check_light_mass(reader);
+    warn_of_usl(reader);
     if (scene->finds_equilibrium)
         check_equilibrium(reader);
     if (scene->transfer == TRANSFER_AFFINE && scene->interpolation != INTERPOLATION_LINEAR)

@@ -41,7 +41,7 @@ struct reader {
     uint64_t missing[CATEGORY_COUNT]; /* words reported as missing, like scene.given */
     struct deck_place output_interval_place, bodies_place, particles_place, materials_place;
     struct deck_place cell_place, contact_place, interpolation_place, total_place, transfer_place, averaging_place, equilibrium_place, small_place, span_place[3];
-    struct deck_place mass_scale_place, fixed_step_place, light_mass_place;
+    struct deck_place mass_scale_place, fixed_step_place, light_mass_place, last_usl_place;
 };
 
 /* Reads the deck from `text` into a new scene. Mistakes go to `diagnostics`; when there are any

@@ -184,6 +184,14 @@ struct instability mpm_check(const struct mpm *mpm)
     return result;
 }
 
+/* More than this share of the energy from nowhere, and numbers that depend on it are wrong. */
+static const double DOUBTFUL_GAIN = 0.1;
+
+bool mpm_has_gained_energy(const struct mpm *mpm)
+{
+    return mpm_energy_error(mpm) > DOUBTFUL_GAIN && !has_uncounted_work(mpm);
+}
+
 double mpm_energy_error(const struct mpm *mpm)
 {
     double energy = mpm->sums.kinetic + mpm->sums.internal + mpm->removed_energy;

@@ -155,6 +155,9 @@ struct sums mpm_total(const struct mpm *mpm);
 /* Energy that is not accounted for, relative to the largest energy that took part. */
 double mpm_energy_error(const struct mpm *mpm);
 
+/* Whether so much energy came from nowhere that the run should not be trusted, though it came to its end. */
+bool mpm_has_gained_energy(const struct mpm *mpm);
+
 /* --- used by the passes --- */
 
 /* Runs `pass` on all active blocks, shared among the threads. A pass writes only to its block's

@@ -288,6 +288,40 @@ static void warn_of_outsiders(const struct mpm *mpm, struct diagnostics *diagnos
     }
 }
 
+/* Nearer to a face of cells than this part of a cell lies on it. */
+static const double ON_FACE = 1e-9;
+
+static bool is_on_face(const struct mpm *mpm, size_t p)
+{
+    const struct cell_frame *frame = &mpm->cells->frame;
+    for (int a = 0; a < 3; a++) {
+        const double x = (mpm->store->real[COLUMN_POSITION][a][p] - frame->low[a]) / frame->size;
+        if (fabs(x - nearbyint(x)) < ON_FACE && x > ON_FACE && x < frame->cells[a] - ON_FACE)
+            return true;
+    }
+    return false;
+}
+
+/* Gradients of linear shapes jump at faces: a body laid down on them strains one-sidedly, and flips with each
+ * move. */
+static void warn_of_faces(const struct mpm *mpm, struct diagnostics *diagnostics)
+{
+    const struct scene *scene = mpm->scene;
+    if (scene->interpolation != INTERPOLATION_LINEAR || mpm->place != COLUMN_POSITION || scene->finds_equilibrium)
+        return;
+    for (size_t b = 0; b < scene->n_bodies; b++) {
+        const struct scene_body *body = &scene->bodies[b];
+        long on_faces = 0;
+        for (long id = body->first; id < body->first + body->count; id++)
+            on_faces += is_on_face(mpm, (size_t)mpm->store->index_of_id[id]);
+        if (2 * on_faces > body->count)
+            diagnostics_warning(diagnostics, body->place,
+                                "%ld of the %ld particles of this body lie on faces of cells, where linear shapes jump: their stress "
+                                "will be wrong; move the body or the grid, or take gimp or bimp",
+                                on_faces, body->count);
+    }
+}
+
 /* The particles of the curx curves: for each body the first one within a quarter cell, later
  * bodies win (spec 3.6). */
 static void find_near_particles(struct mpm *mpm, struct scene *scene, struct diagnostics *diagnostics)
@@ -353,6 +387,7 @@ struct mpm *mpm_open(struct scene *scene, struct timers *timers, struct diagnost
     find_near_particles(mpm, scene, diagnostics);
     create_cells(mpm);
     warn_of_outsiders(mpm, diagnostics);
+    warn_of_faces(mpm, diagnostics);
     overlap_warn(mpm, diagnostics);
     faces_open(mpm);
     mpm->n_workspaces = threads_available();
