@@ -334,17 +334,15 @@ static void check_contact(struct reader *reader)
         diagnostics_error(reader->diagnostics, reader->contact_place, "'cont' does not go with 'TLmp'");
 }
 
-/* Beyond this share of the stable step blocks of particles blow up with usl (make stability). Wider shapes bear more. */
+/* Beyond this share of the stable step bars and blocks of particles blow up with usl, whatever the shape function
+ * (make stability). */
 static const double USL_STEP = 0.55;
 
 /* The default of dtsc stays that of MPM3D-F90, whose decks give the same numbers here. */
 static void warn_of_usl(struct reader *reader)
 {
     const struct scene *scene = reader->scene;
-    const bool is_narrow = scene->interpolation == INTERPOLATION_LINEAR || scene->interpolation == INTERPOLATION_GIMP
-                        || scene->interpolation == INTERPOLATION_GIMP_OWN;
-    if (scene->scheme == SCHEME_USL && is_narrow && !scene->finds_equilibrium && scene->fixed_step == 0
-        && scene->step_scale > USL_STEP)
+    if (scene->scheme == SCHEME_USL && !scene->finds_equilibrium && scene->fixed_step == 0 && scene->step_scale > USL_STEP)
         diagnostics_warning(reader->diagnostics, reader->last_usl_place,
                             "'usl' blows up in many scenes when 'dtsc' is above %g, and it is %g here; take dtsc 0.5, or musl", USL_STEP,
                             scene->step_scale);
