@@ -106,6 +106,10 @@ report: all
 stability: all
 	@QUICK=$(QUICK) sh tests/stability/stability.sh $(build) report
 
+# Runs that are killed at random moments and go on, and disks that fill up: KILLS=300 SEED=1.
+kills: all
+	@KILLS=$(KILLS) SEED=$(SEED) sh tests/stability/kills.sh $(build)
+
 # The last state of decks of each chapter of the thesis, as pictures in report/pictures.
 pictures: all
 	@sh tools/pictures.sh $(build) report/pictures
@@ -146,13 +150,14 @@ help:
 	@echo "make study    accuracy: convergence and conservation by scheme"
 	@echo "make report   accuracy against run time by case and scheme: report/index.html; QUICK=1 for the short form"
 	@echo "make stability the largest stable step by scheme and shape, extreme scenes (QUICK=1: less of it)"
+	@echo "make kills    runs killed at random moments that go on, and full disks (KILLS=300, 3 minutes)"
 	@echo "make pictures draws the last state of decks of each chapter of the thesis (1 minute)"
 	@echo "make manual   writes MANUAL.md from the program's tables"
 	@echo "make fuzz     fuzzes the deck reader (clang)"
 	@echo "make install  PREFIX=$(PREFIX), DESTDIR; make uninstall; make clean"
 	@echo "options: CC, CFLAGS, NATIVE=1 (this machine's instructions), SAN=1 (sanitizers)"
 
-.PHONY: all run test decks check bench study manual fuzz install uninstall clean help pictures report stability
+.PHONY: all run test decks check kills bench study manual fuzz install uninstall clean help pictures report stability
 .PHONY: always
 .SECONDARY: $(tool_parts)
 .DEFAULT_GOAL := all

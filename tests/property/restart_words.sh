@@ -1,0 +1,88 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# N + M steps are N steps, a restart and M steps, byte for byte in all files: every deck of tests/decks/reference and
+# tests/decks/coverage for about forty steps, and a few more for words that these lack. In the end every law, equation of state
+# and word that changes the course of a run has to have been in some deck. sh tests/property/restart_words.sh BUILD
+build=$(cd "$1" && pwd) || exit 2
+here=$(cd "$(dirname "$0")/.." && pwd)
+mpm3d=$build/mpm3d
+folder=$(mktemp -d) || exit 2
+trap 'rm -rf "$folder"' EXIT INT TERM
+cp -r "$here/decks/coverage" "$here/decks/reference" "$folder" && cd "$folder" || exit 2
+failed=0 steps=40
+: >seen
+
+# deck FILE END_TIME INTERVAL LINES: beside FILE, so that what it includes is found; with another end
+deck() {
+    { grep -viE '^ *(endi|endt|outt|rptt|rest|open settle)' "$1"; printf '%s\n' "endt $2 outt $3" "$4" endi; } >"$(dirname "$1")/job.mpm"
+}
+
+# same NAME: all files but the log and checkpoints
+same() {
+    for file in whole/*; do
+        case $file in *.out | *.rest | *.rest.old) continue ;; esac
+        cmp "$file" "part/$(basename "$file")" >&2 || { echo "FAIL $1: ${file#whole/} differs"; failed=1; return 1; }
+    done
+    echo "ok $1"
+}
+
+# compare NAME FILE LINES
+compare() {
+    name=$1 file=$2 lines=$3
+    job=$(dirname "$file")/job.mpm
+    rm -rf whole part
+    deck "$file" 1e30 1e30 "$lines"
+    step=$("$mpm3d" --check "$job" 2>/dev/null | sed -n 's/^first time step \([-+.0-9E]*\),.*/\1/p')
+    [ "$step" ] || { echo "FAIL $name: no time step"; failed=1; return; }
+    set -- $(echo "$step $steps" | awk '{ printf "%.9e %.9e %.9e", $1 * $2 * 0.5, $1 * $2, $1 * $2 * 0.3 }')
+    deck "$file" "$2" "$3" "$lines"
+    "$mpm3d" --quiet --threads 1 -o whole "$job" 2>said || { echo "FAIL $name: exit status $?"; head -n 3 said; failed=1; return; }
+    deck "$file" "$1" "$3" "$lines
+rest every 1000000 steps"
+    "$mpm3d" --quiet --threads 2 -o part "$job" 2>said || { echo "FAIL $name: exit status $? of the first half"; failed=1; return; }
+    deck "$file" "$2" "$3" "$lines"
+    "$mpm3d" --quiet --threads 1 --restart part/job.rest "$job" 2>said || { echo "FAIL $name: exit status $? of the restart"; head -n 3 said; failed=1; return; }
+    same "$name" && sed 's/!.*//' "$job" | tr -s ' \t,' '\n' | tr A-Z a-z | cut -c1-4 >>seen
+}
+
+# Equilibria have no time: they go on from the one before the last. Those of one equilibrium have nothing to go on to.
+for file in coverage/*.mpm reference/*.mpm; do
+    case $file in
+    */job.mpm | */quas_*) continue ;;
+    */generators.mpm | */solid_shapes.mpm) continue ;; # shapes only, no motion
+    esac
+    compare "$file" "$file" ""
+done
+
+# Words that the decks above lack, on small decks of theirs.
+compare "usl, lite" reference/bar_usl.mpm "lite 0.01"
+compare "bimp, blend" reference/bar_usf.mpm "bimp xfer blend 0.9"
+compare "gimp cp, jaum exact, dtmi" reference/bar_musl.mpm "gimp cp jaum exact dtmi 1e-12"
+compare "join" reference/contact_friction.mpm "cont lagr 0.2 0 join"
+compare "smal" reference/bar_musl.mpm "smal"
+compare "drda, mscl, dtfx" reference/bar_musl.mpm "drda mscl 25 dtfx 1e-7"
+sed 's/^open group.*/open group 5 every 3/; s/^ther.*/ther 1 1e-5 300 0.25 cool/' coverage/build_points.mpm >coverage/groups.mpm
+compare "groups, cooling" coverage/groups.mpm ""
+sed '/^open until/d; /^ther/d; s/^open group.*/open all/' coverage/build_points.mpm >coverage/all.mpm
+compare "all at once" coverage/all.mpm ""
+sed 's/^open group.*/open point every 2/' coverage/build_points.mpm >coverage/one_by_one.mpm
+compare "one by one" coverage/one_by_one.mpm ""
+compare "layers, raster" coverage/build_layers.mpm "scan raster 0 45 90"
+compare "held nodes" coverage/build_layers.mpm "fixn -9 9 -9 9 -9 9 1 0 1"
+cp "$here/property/restart.mpm" coverage/falling.mpm
+compare "lost drop, kinetic damping" coverage/falling.mpm ""
+# compared in restart.sh, to their end
+sed 's/!.*//' "$here/property/equilibria.mpm" "$here/property/identity.mpm" "$here/decks/coverage/build_points.mpm" |
+    tr -s ' \t,' '\n' | tr A-Z a-z | cut -c1-4 >>seen
+
+# --- was everything there? ---
+
+laws=$("$mpm3d" --help | sed -n '/^Laws/,/^$/p' | awk 'NR > 1 && NF { print substr($1, 1, 4) }')
+[ "$laws" ] || laws=$(grep -o '^extern const struct law .*;' "$here/../src/material/law.h" | tr -d ';,' | tr ' ' '\n' | sed -n 's/^law_//p')
+for word in $laws usl usf musl gimp cp bimp sgmp tlmp uvfp smal jaum exac xfer pic apic blen bbar cont lagr othe join lite drda ndam damp \
+    mscl dtfx dtmi qulo quli lost drop keep ghos open poin grou laye all sett buil scan rast resi phas ther cool fixn quas seos deto load \
+    grav face velo para smoo curx; do
+    grep -qx "$word" seen || { echo "FAIL no deck with '$word' was compared"; failed=1; missing=1; }
+done
+[ "$missing" ] || echo "ok every law and word was compared"
+exit $failed
