@@ -77,8 +77,10 @@ run: all
 	$(build)/mpm3d -o build/run decks/thesis/tensile.mpm
 	@sh tools/show_tensile.sh $(build)/tecstat build/run/tensile_anim.dat
 
+fuzz_replays := $(patsubst tests/fuzz/fuzz_%.c,$(build)/fuzz_replay_%,$(wildcard tests/fuzz/fuzz_*.c))
+
 # The whole suite; the last line counts.
-test: all $(unit_tests) $(build)/fuzz_replay
+test: all $(unit_tests) $(fuzz_replays)
 	@sh tests/run.sh $(build)
 
 # All decks of decks/ and of the tests, also those that take minutes, with their times.
@@ -153,7 +155,7 @@ help:
 	@echo "make kills    runs killed at random moments that go on, and full disks (KILLS=300, 3 minutes)"
 	@echo "make pictures draws the last state of decks of each chapter of the thesis (1 minute)"
 	@echo "make manual   writes MANUAL.md from the program's tables"
-	@echo "make fuzz     fuzzes the deck reader (clang)"
+	@echo "make fuzz     fuzzes the readers of decks, checkpoints, STL files (clang); FUZZ=stl: one of them; FUZZ_TIME=seconds"
 	@echo "make install  PREFIX=$(PREFIX), DESTDIR; make uninstall; make clean"
 	@echo "options: CC, CFLAGS, NATIVE=1 (this machine's instructions), SAN=1 (sanitizers)"
 
@@ -164,23 +166,45 @@ help:
 
 -include $(objects:.o=.d) $(tool_parts:.o=.d)
 
-# --- fuzzing: `make fuzz FUZZ_TIME=900` searches, `fuzz_replay` gives the seeds to any build ---
+# --- fuzzing: `make fuzz FUZZ_TIME=900` searches, a third of the time for each reader; `make fuzz FUZZ=stl` searches
+# one; fuzz_replay_* give the kept seeds to any build ---
 
 FUZZ_TIME ?= 900
-fuzz_flags := -std=c11 -g -O1 -Isrc -DNO_CLONES -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined
+FUZZ      ?= deck checkpoint stl
+fuzz_flags := -std=c11 -g -O1 -Isrc -DNO_CLONES -MMD -MP -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all
+fuzz_share  = $(shell echo $$(($(FUZZ_TIME) / $(words $(FUZZ)))))
+fuzz_objects := $(sources:src/%.c=build/fuzz/%.o)
+fuzz_library := $(filter-out build/fuzz/main.o,$(fuzz_objects))
+fuzz_parts   := tests/fuzz/folder.c tests/fuzz/fuzz.h tests/fuzz/folder.h
 
-$(build)/fuzz_replay: tests/fuzz/replay.c tests/fuzz/fuzz_deck.c $(library)
+# How each is searched: its longest input in bytes; seconds that none may exceed; messages of the program are not shown.
+fuzz_options_deck       := -max_len=4096 -timeout=1
+fuzz_options_checkpoint := -max_len=1024 -timeout=5 -close_fd_mask=2
+fuzz_options_stl        := -max_len=4096 -timeout=2
+
+$(build)/fuzz_replay_%: tests/fuzz/replay.c tests/fuzz/fuzz_%.c $(fuzz_parts) $(library)
 	@echo "  CC  $@"
-	@$(CC) $(CPPFLAGS) $(filter-out -MMD -MP,$(flags)) $(CFLAGS) $(san) $(openmp) $^ -lm -o $@
+	@$(CC) $(CPPFLAGS) $(filter-out -MMD -MP,$(flags)) $(CFLAGS) $(san) $(openmp) $(filter %.c %.o,$^) -lm -o $@
 
-build/fuzz_deck: tests/fuzz/fuzz_deck.c $(sources) $(wildcard src/*.h src/*/*.h)
+build/fuzz/%.o: src/%.c Makefile
 	@mkdir -p $(@D)
-	clang $(fuzz_flags) tests/fuzz/fuzz_deck.c $(filter-out src/main.c,$(sources)) -lm -o $@
+	@echo "  CC  $@"
+	@clang $(fuzz_flags) -fsanitize=fuzzer-no-link -c $< -o $@
+
+build/fuzz_%: tests/fuzz/libfuzzer.c tests/fuzz/fuzz_%.c $(fuzz_parts) $(fuzz_library)
+	@echo "  CC  $@"
+	@clang $(filter-out -MMD -MP,$(fuzz_flags)) -fsanitize=fuzzer $(filter %.c %.o,$^) -lm -o $@
 
 fuzz:
 	@if ! echo 'int LLVMFuzzerTestOneInput(const char *b, long n) { (void)b; (void)n; return 0; }' | \
 	    clang -fsanitize=fuzzer -x c - -o /dev/null 2>/dev/null; then \
 	    echo "fuzz: no clang with libFuzzer here, nothing is searched"; exit 0; fi; \
-	$(MAKE) build/fuzz_deck && mkdir -p build/corpus && \
-	build/fuzz_deck -max_total_time=$(FUZZ_TIME) -timeout=1 -rss_limit_mb=2048 -max_len=4096 -print_final_stats=1 \
-	    -dict=tests/fuzz/deck.dict -artifact_prefix=build/ build/corpus tests/fuzz/seeds
+	$(MAKE) $(FUZZ:%=fuzz-%)
+
+fuzz-%: build/fuzz_%
+	@mkdir -p build/corpus_$*
+	build/fuzz_$* -max_total_time=$(fuzz_share) $(fuzz_options_$*) -rss_limit_mb=2048 -print_final_stats=1 \
+	    -dict=tests/fuzz/$*.dict -artifact_prefix=build/$*- build/corpus_$* tests/fuzz/seeds_$*
+
+.SECONDARY: $(fuzz_objects)
+-include $(fuzz_objects:.o=.d)

@@ -148,6 +148,25 @@ static void list_tables(const struct run *run, struct table tables[RUN_TABLES])
     memcpy(tables, list, sizeof list);
 }
 
+/* Whether the numbers that tell how far the output is fit to the steps and to the particles that left. */
+static bool are_sound(const struct run *run)
+{
+    const struct cell_list *cells = run->mpm->cells;
+    for (int i = 0; i < RUN_TABLES; i++)
+        if (run->marks[i].length < 0)
+            return false;
+    return run->dumps >= 1 && run->dumps <= run->mpm->step + 1 && run->known_lost >= 0
+        && run->known_lost <= cells->count - cells->in_cells;
+}
+
+/* A list of no more times than there were dumps, nor than the file can hold. */
+static void exchange_series(struct run *run, struct checkpoint *checkpoint)
+{
+    const size_t dumps = (size_t)run->dumps, room = checkpoint_left(checkpoint) / sizeof(double);
+    const size_t count = checkpoint_count(checkpoint, "files of the series", run->vtk.count, dumps < room ? dumps : room);
+    checkpoint_item(checkpoint, "times of the series", vtk_resume(&run->vtk, count), sizeof(double), count);
+}
+
 static void exchange_output(struct run *run, struct checkpoint *checkpoint)
 {
     const struct scene *scene = run->scene;
@@ -156,12 +175,12 @@ static void exchange_output(struct run *run, struct checkpoint *checkpoint)
     checkpoint_item(checkpoint, "dumps", &run->dumps, sizeof run->dumps, 1);
     checkpoint_item(checkpoint, "known lost", &run->known_lost, sizeof run->known_lost, 1);
     checkpoint_item(checkpoint, "marks", run->marks, sizeof *run->marks, RUN_TABLES);
+    if (checkpoint_is_reading(checkpoint) && checkpoint_is_good(checkpoint) && !are_sound(run))
+        checkpoint_reject(checkpoint, "numbers of the output");
     if (scene->writes_animation)
         checkpoint_item(checkpoint, "shown", run->is_shown, 1, run->mpm->store->count);
-    if (scene->writes_vtk) {
-        const size_t count = checkpoint_count(checkpoint, "files of the series", run->vtk.count, (size_t)run->dumps);
-        checkpoint_item(checkpoint, "times of the series", vtk_resume(&run->vtk, count), sizeof(double), count);
-    }
+    if (scene->writes_vtk)
+        exchange_series(run, checkpoint);
 }
 
 /* --- checkpoints --- */

@@ -46,9 +46,9 @@ run tools/test_tools sh tools/test_tools.sh "$build"
 for script in tests/decks/*.sh tests/property/*.sh tests/cli/*.sh; do
     [ -f "$script" ] && run "${script#tests/}" sh "$script" "$build"
 done
-if [ -x "$build/fuzz_replay" ]; then
-    run fuzz/replay "$build/fuzz_replay" tests/fuzz/seeds/*
-fi
+for reader in deck checkpoint stl; do
+    run "fuzz/$reader" "$build/fuzz_replay_$reader" tests/fuzz/seeds_"$reader"/*
+done
 passed=$(grep -c '^ok ' "$all")
 failed=$(grep -c '^FAIL ' "$all")
 skipped=$(grep -c '^skip ' "$all")

@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/types.h>
@@ -268,13 +269,20 @@ void checkpoint_fail(struct checkpoint *checkpoint)
     checkpoint->is_good = false;
 }
 
+size_t checkpoint_left(const struct checkpoint *checkpoint)
+{
+    if (!checkpoint->is_reading)
+        return SIZE_MAX;
+    return checkpoint->is_good ? (size_t)(checkpoint->tail.length - sizeof(struct tail) - checkpoint->at) : 0;
+}
+
 /* Reads bytes with their filling, not beyond the end mark. */
 static void read_bytes(struct checkpoint *checkpoint, void *bytes, size_t count)
 {
     unsigned char filling[CHECKSUM_BYTES];
     const size_t rest = (CHECKSUM_BYTES - count % CHECKSUM_BYTES) % CHECKSUM_BYTES;
     errno = 0;
-    if (count + rest > checkpoint->tail.length - sizeof(struct tail) - checkpoint->at)
+    if (count + rest > checkpoint_left(checkpoint))
         refuse(checkpoint, "is too short");
     else if ((count > 0 && fread(bytes, 1, count, checkpoint->stream) != count) || fread(filling, 1, rest, checkpoint->stream) != rest)
         refuse_unread(checkpoint);

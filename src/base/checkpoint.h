@@ -30,6 +30,9 @@ bool checkpoint_item(struct checkpoint *checkpoint, const char *name, void *data
  * failure, and 0. */
 size_t checkpoint_count(struct checkpoint *checkpoint, const char *name, size_t count, size_t most);
 
+/* Bytes that can still be read; SIZE_MAX where the file is written. */
+size_t checkpoint_left(const struct checkpoint *checkpoint);
+
 /* Ends the exchange after a failure: says that item `name` does not fit; or the caller has said why. */
 void checkpoint_reject(struct checkpoint *checkpoint, const char *name);
 void checkpoint_fail(struct checkpoint *checkpoint);

@@ -133,16 +133,30 @@ bool building_step(struct mpm *mpm, long step)
     return n > 0;
 }
 
+/* The hot zone is around a particle that opened. */
+static void exchange_heat(struct mpm *mpm, struct checkpoint *checkpoint)
+{
+    const size_t most = mpm->schedule ? (size_t)mpm->cells->count : 0;
+    const size_t count = checkpoint_count(checkpoint, "hot particles", heat_count(mpm->heat), most);
+    int32_t *ids = heat_ids(mpm->heat, count);
+    if (!checkpoint_item(checkpoint, "ids of hot particles", ids, sizeof *ids, count))
+        return;
+    for (size_t i = 0; i < count; i++)
+        if (ids[i] < 0 || (size_t)ids[i] >= mpm->store->count || mpm->store->index_of_id[ids[i]] >= mpm->cells->count)
+            checkpoint_reject(checkpoint, "ids of hot particles");
+}
+
 void building_exchange(struct mpm *mpm, struct checkpoint *checkpoint)
 {
-    if (mpm->heat) {
-        const size_t count = checkpoint_count(checkpoint, "hot particles", heat_count(mpm->heat), mpm->store->count);
-        checkpoint_item(checkpoint, "ids of hot particles", heat_ids(mpm->heat, count), sizeof(int32_t), count);
-    }
+    if (mpm->heat)
+        exchange_heat(mpm, checkpoint);
     if (!checkpoint_is_reading(checkpoint))
         return;
     const size_t count = (size_t)mpm->cells->count, opened = count - mpm->n_open;
     if (count < mpm->n_open || (mpm->schedule ? !schedule_skip(mpm->schedule, opened) : opened > 0))
+        checkpoint_reject(checkpoint, "open particles");
+    const long next = mpm->schedule ? schedule_next_step(mpm->schedule) : 0;
+    if (!mpm->scene->finds_equilibrium && next > 0 && next <= mpm->step) /* the next ones would wait for ever */
         checkpoint_reject(checkpoint, "open particles");
     for (size_t p = 0; p < count && mpm->scene->building.has_ghosts; p++)
         note_material(mpm, p);

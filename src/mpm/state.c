@@ -2,9 +2,15 @@
 /* What a run is between two steps: particles, who is where, numbers that go on. All else follows from the deck
  * or is made anew in each step. */
 #include "base/checkpoint.h"
+#include "base/memory.h"
 #include "mpm/equilibrium.h"
 
+#include <limits.h>
+#include <math.h>
 #include <string.h>
+
+/* So many more can be counted from there. */
+static const long MOST_STEPS = LONG_MAX / 2;
 
 #define FIELD(name) {#name, offsetof(struct mpm, name), sizeof(((struct mpm *)NULL)->name)}
 
@@ -29,10 +35,23 @@ static const struct {
     FIELD(start_momentum),
 };
 
+/* No run is at such numbers: counting on from them would fail. */
+static bool are_sound(const struct mpm *mpm)
+{
+    const double positive[] = {mpm->time_step, mpm->first_time_step};
+    for (size_t i = 0; i < sizeof positive / sizeof positive[0]; i++)
+        if (!(positive[i] > 0 && isfinite(positive[i])))
+            return false;
+    return mpm->step >= 0 && mpm->step < MOST_STEPS && mpm->time >= 0 && isfinite(mpm->time) && mpm->growing_steps >= 0
+        && mpm->growing_steps <= mpm->step;
+}
+
 static void exchange_fields(struct mpm *mpm, struct checkpoint *checkpoint)
 {
     for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
         checkpoint_item(checkpoint, fields[i].name, (char *)mpm + fields[i].offset, fields[i].size, 1);
+    if (checkpoint_is_reading(checkpoint) && checkpoint_is_good(checkpoint) && !are_sound(mpm))
+        checkpoint_reject(checkpoint, "step and time");
 }
 
 /* Ids give the places; false when one is there twice, or a body that does not exist. */
@@ -89,6 +108,21 @@ static void find_cells(struct mpm *mpm)
         grid_follow(mpm->centres);
 }
 
+/* Whether the order ends with all that have no cell, each of them once. */
+static bool are_lost(const struct cell_list *cells)
+{
+    bool *is_listed = memory_array((size_t)cells->count, sizeof *is_listed, "lost particles");
+    bool is_right = true;
+    for (int32_t k = cells->in_cells; k < cells->count && is_right; k++) {
+        const int32_t p = cells->order[k];
+        is_right = p >= 0 && p < cells->count && cells->cell[p] == CELL_NONE && !is_listed[p];
+        if (is_right)
+            is_listed[p] = true;
+    }
+    memory_free(is_listed);
+    return is_right;
+}
+
 /* Who takes part, and the particles that left the grid in the order in which they did. */
 static void exchange_cells(struct mpm *mpm, struct checkpoint *checkpoint)
 {
@@ -101,10 +135,9 @@ static void exchange_cells(struct mpm *mpm, struct checkpoint *checkpoint)
         cells->moved = moved;
     }
     const int32_t lost = cells->count - cells->in_cells;
-    checkpoint_item(checkpoint, "lost particles", cells->order + cells->in_cells, sizeof *cells->order, (size_t)lost);
-    for (int32_t k = cells->in_cells; k < cells->count && is_reading; k++)
-        if (cells->order[k] < 0 || cells->order[k] >= cells->count || cells->cell[cells->order[k]] != CELL_NONE)
-            checkpoint_reject(checkpoint, "lost particles");
+    if (checkpoint_item(checkpoint, "lost particles", cells->order + cells->in_cells, sizeof *cells->order, (size_t)lost)
+        && is_reading && !are_lost(cells))
+        checkpoint_reject(checkpoint, "lost particles");
 }
 
 void mpm_exchange(struct mpm *mpm, struct checkpoint *checkpoint)

@@ -293,5 +293,5 @@ const struct crossings_run *crossings_runs(const struct crossings *crossings, lo
         return NULL;
     size_t line = (size_t)(k - crossings->from[1]) * (size_t)row + (size_t)(j - crossings->from[0]);
     *count = crossings->start[line + 1] - crossings->start[line];
-    return crossings->runs + crossings->start[line];
+    return *count > 0 ? crossings->runs + crossings->start[line] : NULL;
 }

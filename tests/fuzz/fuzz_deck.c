@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reads any bytes as a deck. No input may crash, leak, or take long; and what the program
  * understood of a right deck, printed as in the log, has to be a right deck that says the same.
- * libFuzzer calls LLVMFuzzerTestOneInput; replay.c calls it for files. */
+ * Returns whether the deck is right. */
 #define _POSIX_C_SOURCE 200809L
 #include "deck/diagnostics.h"
 #include "deck/echo.h"
 #include "deck/reader.h"
+#include "fuzz.h"
 
-#include <stdint.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size);
+
 
 /* The deck as understood, in memory that the caller frees; NULL when it is wrong. */
 static char *read_and_echo(const char *bytes, size_t size, FILE *null)
@@ -46,7 +47,7 @@ static void remove_notes(char *echo)
         memmove(found, found + sizeof note - 1, strlen(found + sizeof note - 1) + 1);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+bool fuzz_read(const uint8_t *bytes, size_t size)
 {
     static FILE *null;
     if (!null)
