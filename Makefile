@@ -120,8 +120,8 @@ pictures: all
 manual: $(build)/mpm3d
 	$(build)/mpm3d --manual >MANUAL.md
 
-# The suite under address and undefined sanitizers with gcc and clang, warnings as errors, and the
-# module prefixes of all functions that are visible outside their file.
+# The suite under address and undefined sanitizers with gcc and clang, warnings as errors, the module prefixes of all
+# functions that are visible outside their file, gcc's analyser, and valgrind where it is there.
 check:
 	$(MAKE) WERROR=1 SAN=1 CFLAGS="-O1 -g" CC=gcc test
 	@if command -v clang >/dev/null; then $(MAKE) WERROR=1 SAN=1 CFLAGS="-O1 -g" CC=clang test && \
@@ -129,6 +129,9 @@ check:
 	$(MAKE) WERROR=1 CC=gcc test
 	$(MAKE) CC=gcc decks
 	sh tools/check_names.sh build/gcc
+	sh tests/check/analyse.sh
+	sh tests/check/memcheck.sh build/gcc
+	sh tests/check/leave_out.sh build/gcc
 
 install: all
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/mpm3d
@@ -147,7 +150,8 @@ help:
 	@echo "make run      builds, runs the tensile test, prints its result beside the theory"
 	@echo "make test     runs all tests; the last line counts"
 	@echo "make decks    runs all decks, also the long ones, and compares their numbers"
-	@echo "make check    the tests under sanitizers, with gcc and clang, warnings as errors; make decks"
+	@echo "make check    the tests under sanitizers, with gcc and clang, warnings as errors; make decks; gcc's analyser,"
+	@echo "              valgrind on a small deck of every method, instructions of features that are off"
 	@echo "make bench    speed: cost by phase, threads, size; against this machine's memory bandwidth"
 	@echo "make study    accuracy: convergence and conservation by scheme"
 	@echo "make report   accuracy against run time by case and scheme: report/index.html; QUICK=1 for the short form"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "summary.h"
+#include "account.h"
 #include "base/threads.h"
 #include "process/schedule.h"
 #include "mpm/equilibrium.h"
@@ -7,15 +8,6 @@
 #include <math.h>
 
 enum { SHOWN_LOST = 10 };
-
-static void print_columns(const struct store *store, FILE *stream)
-{
-    fprintf(stream, "columns in use:");
-    for (int c = COLUMN_NONE + 1; c < COLUMN_COUNT; c++)
-        if (store_has(store, (enum column)c))
-            fprintf(stream, " %s", column_row((enum column)c)->name);
-    fprintf(stream, "\n");
-}
 
 void summary_check(const struct mpm *mpm, FILE *stream)
 {
@@ -35,13 +27,9 @@ void summary_check(const struct mpm *mpm, FILE *stream)
 
 void summary_start(const struct mpm *mpm, FILE *stream)
 {
-    double particles = cell_list_bytes_per_particle(mpm->cells) + (double)store_bytes_per_particle(mpm->store);
     fprintf(stream, "\n");
     summary_check(mpm, stream);
-    print_columns(mpm->store, stream);
-    fprintf(stream, "memory: %.0f bytes per particle, %.0f of them for the grid\n",
-            particles + (double)grid_bytes(mpm->grid) / (double)mpm->store->count,
-            (double)grid_bytes(mpm->grid) / (double)mpm->store->count);
+    account_print(mpm, stream);
     fprintf(stream, "mass cutoff of the nodes %.6E\n", mpm->scene->mass_cutoff);
     fprintf(stream, "kinetic energy %.9E, internal energy %.9E\n\n", mpm->sums.kinetic, mpm->sums.internal);
 }

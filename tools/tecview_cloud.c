@@ -147,7 +147,7 @@ struct neighbours {
 static void consider(struct neighbours *found, const double here[3], const double there[3])
 {
     int longest = 0;
-    double part[3];
+    double part[3] = {0};
     for (int axis = 0; axis < 3; ++axis) {
         part[axis] = there[axis] - here[axis];
         if (fabs(part[axis]) > fabs(part[longest]))

@@ -167,7 +167,7 @@ static void add_moments(const double *from, double factor, const int side[3], do
  * gradients vary from cell to cell, on that at their centre. Adds such a point to the moments. */
 static void add_centre(const double *volume, double bulk, const int side[3], double *to)
 {
-    double powers[3][3];
+    double powers[3][3] = {{0}};
     for (int axis = 0, stride = 1; axis < 3; axis++, stride *= 3) {
         double middle = volume[stride * BLOCK_EDGE] / volume[0], x = 0.5 * middle + (side[axis] ? 0.25 : -0.25);
         powers[axis][0] = 1, powers[axis][1] = x, powers[axis][2] = x * x;
