@@ -7,6 +7,8 @@
 static void open_solver(struct run *run)
 {
     struct sph *sph = run->sph = sph_open(run->scene, &run->timers, run->diagnostics);
+    if (run->options.has_threads)
+        sph_share_always(sph);
     run->store = sph->store;
     run->source = (struct result_source){.store = sph->store, .body_material = sph->material_of_body,
                                          .body_material_number = sph->material_number_of_body};

@@ -68,7 +68,7 @@ void budget_update(struct sph *sph)
     const size_t count = sph->store->count, portions = (count + PORTION - 1) / PORTION;
     if (!sph->portions)
         sph->portions = memory_array(portions, sizeof *sph->portions, "sums");
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t k = 0; k < portions; k++) {
         struct sph_portion sums = {.least_ratio = INFINITY, .is_finite = true};
         const size_t end = (k + 1) * PORTION < count ? (k + 1) * PORTION : count;

@@ -20,7 +20,7 @@ void flow_prepare(struct sph *sph)
     const struct sph_columns *c = &sph->columns;
     const double ahead = sph->words->integrator == INTEGRATOR_PREDICTED ? 0.5 * sph->taken_step : 0;
     const size_t count = sph->store->count;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t p = 0; p < count; p++) {
         const bool is_fluid = c->state[p] == SPH_FLUID;
         for (int a = 0; a < 3; a++)
@@ -80,7 +80,7 @@ THREADS_INLINE void gradient_of(const struct sph *sph, size_t a, int dimension, 
 THREADS_INLINE void all_gradients(const struct sph *sph, int dimension, bool varies)
 {
     const size_t count = sph->store->count;
-#pragma omp parallel for schedule(dynamic, 512)
+#pragma omp parallel for schedule(dynamic, 512) if (sph->is_shared)
     for (size_t p = 0; p < count; p++)
         if (sph->columns.state[p] == SPH_FLUID)
             gradient_of(sph, p, dimension, varies);
@@ -131,7 +131,7 @@ THREADS_INLINE void rate_of(const struct sph *sph, size_t a, int dimension, bool
 THREADS_INLINE void all_rates(const struct sph *sph, int dimension, bool varies)
 {
     const size_t count = sph->store->count;
-#pragma omp parallel for schedule(dynamic, 512)
+#pragma omp parallel for schedule(dynamic, 512) if (sph->is_shared)
     for (size_t p = 0; p < count; p++)
         if (sph->columns.state[p] == SPH_FLUID)
             rate_of(sph, p, dimension, varies);
@@ -143,7 +143,7 @@ void flow_density(struct sph *sph, double time_step)
     const double square = sph->sound_speed * sph->sound_speed;
     const size_t count = sph->store->count;
     RUN_FORM(all_rates, sph);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t p = 0; p < count; p++) {
         if (c->state[p] != SPH_FLUID)
             continue;
@@ -194,7 +194,7 @@ THREADS_INLINE void mirror(const struct sph *sph, size_t w, int dimension, bool 
 THREADS_INLINE void mirror_all(const struct sph *sph, int dimension, bool varies)
 {
     const size_t count = sph->store->count;
-#pragma omp parallel for schedule(dynamic, 512)
+#pragma omp parallel for schedule(dynamic, 512) if (sph->is_shared)
     for (size_t p = 0; p < count; p++)
         if (sph->columns.state[p] == SPH_WALL || sph->columns.state[p] == SPH_SOLID)
             mirror(sph, p, dimension, varies);
@@ -206,7 +206,7 @@ void flow_walls(struct sph *sph)
     if (!sph->has_fixed)
         return;
     RUN_FORM(mirror_all, sph);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t p = 0; p < count; p++)
         for (int i = 0; i < 3 && (sph->columns.state[p] == SPH_WALL || sph->columns.state[p] == SPH_SOLID); i++)
             sph->seen[i][p] = sph->work[i][p];
@@ -252,7 +252,7 @@ THREADS_INLINE void force_on(const struct sph *sph, size_t a, int dimension, boo
 THREADS_INLINE void all_forces(const struct sph *sph, int dimension, bool varies)
 {
     const size_t count = sph->store->count;
-#pragma omp parallel for schedule(dynamic, 512)
+#pragma omp parallel for schedule(dynamic, 512) if (sph->is_shared)
     for (size_t p = 0; p < count; p++)
         if (sph->columns.state[p] == SPH_FLUID)
             force_on(sph, p, dimension, varies);
@@ -278,7 +278,7 @@ void flow_advance(struct sph *sph, double half_steps, double time_step)
     const struct sph_columns *c = &sph->columns;
     const size_t count = sph->store->count;
     const bool shifts = sph->words->shifting > 0, stays = sph->words->freezes_flow;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t p = 0; p < count; p++) {
         if (c->state[p] != SPH_FLUID) {
             for (int i = 0; i < sph->dimension && c->state[p] == SPH_WALL; i++)

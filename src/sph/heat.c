@@ -100,7 +100,7 @@ void heat_properties(struct sph *sph)
 {
     const struct sph_columns *c = &sph->columns;
     const size_t count = sph->store->count;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t p = 0; p < count; p++) {
         const struct property_table *tables = sph->bodies[c->body[p]].properties->tables;
         const double temperature = temperature_of(sph, p);
@@ -353,7 +353,7 @@ static double heat_from_walls(const struct sph *sph, size_t a)
 static double add_heat_from_walls(struct sph *sph, struct sph_heat *heat)
 {
     double sum = 0;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t i = 0; i < heat->n_contacts; i++) {
         const size_t p = (size_t)heat->contacts[i].particle;
         heat->contacts[i].heat = sph->columns.state[p] == SPH_REMOVED ? 0 : heat_from_walls(sph, p);
@@ -462,7 +462,7 @@ void heat_flow(struct sph *sph)
     const int32_t *state = sph->columns.state;
     const size_t count = sph->store->count, portions = (count + PORTION - 1) / PORTION;
     find_contacts(sph, heat);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t k = 0; k < portions; k++) {
         const size_t from = k * PORTION, to = from + PORTION < count ? from + PORTION : count;
         struct sph_powers sums = {0};
@@ -536,7 +536,7 @@ void heat_advance(struct sph *sph, double time_step)
     const struct sph_columns *c = &sph->columns;
     const size_t count = sph->store->count;
     const double left = exp(-time_step * sph->sound_speed / (RELAXATION * sph->smoothing));
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t p = 0; p < count; p++) {
         if (c->state[p] != SPH_FLUID && c->state[p] != SPH_SOLID)
             continue;

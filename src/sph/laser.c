@@ -20,6 +20,8 @@ static const double LEAST_FILLING = 1e-6;
 static const double SHORT_DEPTH = 3;
 /* What lies farther, in cells, is not under the beam: its level would not fit into a number. */
 static const double FARTHEST = 1e12;
+/* Fewer than this are not worth a second thread. */
+enum { SHARED_ITEMS = 4000 };
 static const double PI = 3.14159265358979323846;
 
 /* A particle under the beam lies between cell centres: cell (column, level) and the next ones, with the way from
@@ -161,7 +163,7 @@ static void find_lit(struct sph_march *march, const struct sph *sph)
     march->base_first = memory_grow(march->base_first, &march->base_capacity, (size_t)bases + 2, sizeof(int32_t), "the beam");
     int32_t *first = march->base_first;
     memset(first, 0, ((size_t)bases + 2) * sizeof *first);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t p = 0; p < count; p++)
         march->base_of[p] = base_of_particle(march, sph, p);
     for (size_t p = 0; p < count; p++)
@@ -223,7 +225,7 @@ static void find_levels(struct sph_march *march)
         if (i == 0 || levels[i] != levels[kept - 1])
             levels[kept++] = levels[i];
     march->levels = kept;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (march->n_lit >= SHARED_ITEMS)
     for (size_t i = 0; i < march->n_lit; i++)
         march->lit[i].level = (int32_t)find_level(levels, kept, base[i]);
 }
@@ -321,7 +323,7 @@ static void march_columns(struct sph_march *march, const struct sph *sph, double
     march->cells = memory_grow(march->cells, &march->cells_capacity, columns * march->levels, sizeof(double), "the beam");
     for (int i = 0; i < 3; i++)
         march->powers[i] = memory_grow(march->powers[i], &march->powers_capacity[i], columns, sizeof(double), "the beam");
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t k = 0; k < columns; k++) {
         const int32_t i = (int32_t)(k % (size_t)march->columns[0]), j = (int32_t)(k / (size_t)march->columns[0]);
         march_down(march, sph, i, j, power * march->parts[0][i] * (march->lateral == 2 ? march->parts[1][j] : 1));
@@ -346,7 +348,7 @@ static double power_per_volume(const struct sph_march *march, const struct lit *
 
 static void share_power(const struct sph_march *march, const struct sph *sph)
 {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t n = 0; n < march->n_lit; n++) {
         const size_t p = (size_t)march->lit[n].particle;
         sph->columns.laser_power[p] += sph->columns.volume[p] * power_per_volume(march, &march->lit[n]);

@@ -29,7 +29,7 @@ static struct extremes find_extremes(const struct sph *sph)
     const bool has_surface = sph->words->surface != SURFACE_OFF;
     const size_t count = sph->store->count;
     double kinematic = 0, lightest = INFINITY, tension = 0, diffusivity = 0;
-#pragma omp parallel for schedule(static) reduction(max : kinematic, tension, diffusivity) reduction(min : lightest)
+#pragma omp parallel for schedule(static) reduction(max : kinematic, tension, diffusivity) reduction(min : lightest) if (sph->is_shared)
     for (size_t p = 0; p < count; p++) {
         const struct properties *properties = sph->bodies[c->body[p]].properties;
         if (c->conductivity && c->state[p] != SPH_REMOVED)

@@ -133,7 +133,7 @@ static void sort_into_cells(struct neighbours *neighbours)
                                          sizeof(int32_t), "cells");
     int32_t *first = neighbours->cell_first;
     memset(first, 0, ((size_t)cells + 2) * sizeof *first);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (neighbours->is_shared)
     for (size_t p = 0; p < store->count; p++) {
         int at[3];
         find_cell(neighbours, p, at);
@@ -209,14 +209,14 @@ static void make_lists(struct neighbours *neighbours, struct neighbour_lists *li
     if (lists->reach <= 0)
         return;
     lists->first[0] = 0;
-#pragma omp parallel for schedule(dynamic, 256)
+#pragma omp parallel for schedule(dynamic, 256) if (neighbours->is_shared)
     for (size_t p = 0; p < store->count; p++)
         lists->first[p + 1] = is_removed(store, p) ? 0 : list_one(neighbours, p, reach2, NULL);
     for (size_t p = 0; p < store->count; p++)
         lists->first[p + 1] += lists->first[p];
     lists->list = memory_grow(lists->list, &lists->list_capacity, (size_t)lists->first[store->count], sizeof(int32_t),
                               "neighbours");
-#pragma omp parallel for schedule(dynamic, 256)
+#pragma omp parallel for schedule(dynamic, 256) if (neighbours->is_shared)
     for (size_t p = 0; p < store->count; p++)
         if (lists->first[p + 1] > lists->first[p])
             list_one(neighbours, p, reach2, lists->list + lists->first[p]);
@@ -243,7 +243,7 @@ static double farthest_way(const struct neighbours *neighbours)
     const struct store *store = neighbours->store;
     double *const *x = store->real[COLUMN_POSITION], *const *y = store->real[COLUMN_LISTED_POSITION];
     double most = 0;
-#pragma omp parallel for schedule(static) reduction(max : most)
+#pragma omp parallel for schedule(static) reduction(max : most) if (neighbours->is_shared)
     for (size_t p = 0; p < store->count; p++) {
         const double d0 = x[0][p] - y[0][p], d1 = x[1][p] - y[1][p], d2 = x[2][p] - y[2][p];
         const double way = d0 * d0 + d1 * d1 + d2 * d2;

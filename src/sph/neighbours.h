@@ -28,6 +28,7 @@ struct neighbours {
     int cells[3];
     double low[3], cell_size[3];
     long builds;
+    bool is_shared; /* threads share the work */
 };
 
 /* For the particles of `store`, which has COLUMN_LISTED_POSITION. Lists are not made yet. */

@@ -11,6 +11,8 @@
 static const double SKIN = 0.25;
 /* With varying smoothing length: how much longer than at the start it may become. */
 static const double LONGEST = 1.5;
+/* Fewer particles than this are not worth a second thread. */
+enum { SHARED_PARTICLES = 4000 };
 /* c0 found from the scene makes densities change by less than about this. */
 static const double COMPRESSION = 0.01;
 
@@ -315,6 +317,11 @@ static void start_densities(struct sph *sph)
     }
 }
 
+void sph_share_always(struct sph *sph)
+{
+    sph->is_shared = sph->neighbours->is_shared = true;
+}
+
 struct sph *sph_open(struct scene *scene, struct timers *timers, struct diagnostics *diagnostics)
 {
     struct sph *sph = memory_array(1, sizeof *sph, "the run");
@@ -335,6 +342,8 @@ struct sph *sph_open(struct scene *scene, struct timers *timers, struct diagnost
         sph->period = scene->grid[1] - scene->grid[0];
         neighbours_repeat(sph->neighbours, scene->grid[0], sph->period);
     }
+    if (sph->store->count >= SHARED_PARTICLES)
+        sph_share_always(sph);
     start_densities(sph);
     budget_update(sph);
     sph->start_energy = sph->budget.kinetic + sph->budget.internal;

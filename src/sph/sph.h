@@ -89,6 +89,7 @@ struct sph {
     double self_value;          /* W(0) of kernel */
     double sound_speed;
     double courant;
+    bool is_shared;             /* threads share the work: there is enough of it, or a number was asked for */
     bool has_fixed;             /* walls or solids */
     bool needs_normals;         /* for surface forces, radiation, evaporation or shifting */
 
@@ -126,6 +127,9 @@ struct sph {
 struct diagnostics;
 struct sph *sph_open(struct scene *scene, struct timers *timers, struct diagnostics *diagnostics);
 void sph_close(struct sph *sph);
+
+/* Lets threads share the work of small scenes too, where they only cost. */
+void sph_share_always(struct sph *sph);
 
 /* One step. */
 void sph_step(struct sph *sph);

@@ -67,7 +67,7 @@ THREADS_INLINE void fixed_normals(struct sph *sph, int dimension, bool varies)
     const int32_t *state = sph->columns.state;
     const bool is_new = sph->normals_builds != sph->neighbours->builds;
     const size_t count = sph->store->count;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t a = 0; a < count; a++) {
         const bool is_fixed = state[a] == SPH_SOLID || state[a] == SPH_WALL, sees = !is_fixed || sees_motion(sph, a);
         if (is_fixed && (is_new || sees || sph->saw_motion[a]))
@@ -92,10 +92,10 @@ static void mark_candidates(struct sph *sph)
     const bool is_far = neighbours->wide.reach > LONGEST_RATIO * neighbours->near.reach;
     const struct neighbour_lists *lists = is_far ? &neighbours->wide : &neighbours->near;
     const size_t count = sph->store->count;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t a = 0; a < count; a++)
         sph->is_kept[a] = is_strong(sph, a);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t a = 0; a < count; a++) {
         bool is_candidate = sph->is_kept[a];
         for (int64_t n = lists->first[a]; n < lists->first[a + 1] && !is_candidate; n++)
@@ -127,7 +127,7 @@ THREADS_INLINE void wide_normals(struct sph *sph, int dimension, bool varies)
 {
     const struct neighbour_lists *wide = &sph->neighbours->wide;
     const struct sph_columns *c = &sph->columns;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t k = 0; k < sph->n_band; k++) {
         const size_t a = (size_t)sph->band[k];
         double filled = c->volume[a] * surface_kernel(sph, a, a, dimension, varies).value, normal[3] = {0};
@@ -151,7 +151,7 @@ THREADS_INLINE void thesis_normals(struct sph *sph, int dimension, bool varies)
 {
     const struct neighbour_lists *wide = &sph->neighbours->wide;
     const struct sph_columns *c = &sph->columns;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t k = 0; k < sph->n_band; k++) {
         const size_t a = (size_t)sph->band[k];
         const double own = 1 / c->wide_shepard[a];
@@ -173,7 +173,7 @@ THREADS_INLINE void thesis_normals(struct sph *sph, int dimension, bool varies)
 static void keep_normals(struct sph *sph)
 {
     const double threshold = sph->words->surface_threshold;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t k = 0; k < sph->n_band; k++) {
         const size_t a = (size_t)sph->band[k];
         const double length = surface_normal_length(sph, a);
@@ -222,7 +222,7 @@ THREADS_INLINE void curvature_of(struct sph *sph, size_t a, int dimension, bool 
 
 THREADS_INLINE void raw_curvatures(struct sph *sph, int dimension, bool varies)
 {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t k = 0; k < sph->n_band; k++)
         if (sph->is_kept[sph->band[k]])
             curvature_of(sph, (size_t)sph->band[k], dimension, varies);
@@ -244,7 +244,7 @@ THREADS_INLINE void smooth_curvatures(struct sph *sph, int dimension, bool varie
     const struct neighbour_lists *wide = &sph->neighbours->wide;
     const struct sph_columns *c = &sph->columns;
     const bool corrects = sph->words->corrects_depth && sph->words->surface == SURFACE_BALANCED;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t k = 0; k < sph->n_band; k++) {
         const size_t a = (size_t)sph->band[k];
         if (sph->is_kept[a] != KEPT)

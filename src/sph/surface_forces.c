@@ -84,7 +84,7 @@ THREADS_INLINE void add_tangential_force(const struct sph *sph, size_t a, int di
 THREADS_INLINE void band_forces(struct sph *sph, int dimension, bool varies)
 {
     const struct sph_columns *c = &sph->columns;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t k = 0; k < sph->n_band; k++) {
         const size_t a = (size_t)sph->band[k];
         double force[3] = {0};

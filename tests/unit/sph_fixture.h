@@ -105,6 +105,7 @@ static inline struct fixture *fixture_open(int dimension, double spacing, double
     sph->self_value = kernel_value(&sph->kernel, 0);
     sph->store = store_open(count, wanted);
     sph->neighbours = neighbours_open(sph->store, dimension, 2 * sph->smoothing, 0, 0.25 * spacing);
+    sph->is_shared = sph->neighbours->is_shared = true;
     fixture_bind(fixture);
     return fixture;
 }

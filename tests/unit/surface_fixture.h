@@ -160,6 +160,7 @@ static inline void fixture_start(struct fixture *fixture)
     sph->saw_motion = memory_array(fixture->n, sizeof *sph->saw_motion, "test");
     sph->neighbours = neighbours_open(sph->store, sph->dimension, 2 * sph->smoothing,
                                       2 * fixture->words.wide_smoothing * sph->spacing, 0.25 * sph->spacing);
+    sph->is_shared = sph->neighbours->is_shared = true;
     fixture_bind(sph);
     fixture_fill(fixture);
     neighbours_follow(sph->neighbours);
