@@ -61,7 +61,7 @@ $(build)/tec%: $(build)/tools/tec%.o $(tecplot_objects)
 
 unit_tests := $(patsubst tests/unit/%.c,$(build)/tests/%,$(wildcard tests/unit/test_*.c))
 
-$(build)/tests/%: tests/unit/%.c tests/unit/check.h $(library)
+$(build)/tests/%: tests/unit/%.c tests/unit/check.h tests/unit/sph_fixture.h $(library)
 	@mkdir -p $(@D)
 	@echo "  CC  $@"
 	@$(CC) $(CPPFLAGS) $(filter-out -MMD -MP,$(flags)) $(CFLAGS) $(san) $(openmp) $< $(library) -lm -o $@

@@ -115,7 +115,7 @@ double account_bytes(const struct mpm *mpm)
     return bytes;
 }
 
-static void print_columns(const struct store *store, FILE *stream)
+void account_columns(const struct store *store, FILE *stream)
 {
     fprintf(stream, "columns in use             numbers        bytes\n");
     for (int c = COLUMN_NONE + 1; c < COLUMN_COUNT; c++) {
@@ -128,7 +128,7 @@ static void print_columns(const struct store *store, FILE *stream)
 
 void account_print(const struct mpm *mpm, FILE *stream)
 {
-    print_columns(mpm->store, stream);
+    account_columns(mpm->store, stream);
     fprintf(stream, "parts in use                              bytes\n");
     for (int i = 0; i < ROWS; i++) {
         if (!rows[i].is_used(mpm))

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What of the program a run of the material point method uses, and the memory of each part. */
+/* What of the program a run uses, and the memory of each part. */
 #ifndef ACCOUNT_H
 #define ACCOUNT_H
 
@@ -7,7 +7,10 @@
 
 #include <stdio.h>
 
-/* Columns with their bytes, the parts in use with theirs (parts that hold nothing but code: none), and one line of the parts
+/* Columns with their bytes. */
+void account_columns(const struct store *store, FILE *stream);
+
+/* The same, the parts in use with theirs (parts that hold nothing but code: none), and one line of the parts
  * that the scene leaves out. */
 void account_print(const struct mpm *mpm, FILE *stream);
 

@@ -4,7 +4,6 @@
 #include "base/threads.h"
 #include "deck/help.h"
 #include "run.h"
-#include "summary.h"
 #include "version.h"
 
 #include <signal.h>
@@ -76,7 +75,7 @@ static enum status run_deck(const struct run_options *options)
     signal(SIGXFSZ, SIG_IGN); /* a file that grows too large is a failure to write as any other */
     enum status status = run_open(&run, options);
     if (status == STATUS_FINISHED && options->only_check) {
-        summary_check(run.mpm, stdout);
+        run.method->print_scene(&run, stdout);
         return run_close(&run, status);
     }
     catch_signals();

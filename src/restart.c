@@ -151,12 +151,11 @@ static void list_tables(const struct run *run, struct table tables[RUN_TABLES])
 /* Whether the numbers that tell how far the output is fit to the steps and to the particles that left. */
 static bool are_sound(const struct run *run)
 {
-    const struct cell_list *cells = run->mpm->cells;
     for (int i = 0; i < RUN_TABLES; i++)
         if (run->marks[i].length < 0)
             return false;
-    return run->dumps >= 1 && run->dumps <= run->mpm->step + 1 && run->known_lost >= 0
-        && run->known_lost <= cells->count - cells->in_cells;
+    return run->dumps >= 1 && run->dumps <= run->course.step + 1 && run->known_lost >= 0
+        && run->known_lost <= run->course.lost;
 }
 
 /* A list of no more times than there were dumps, nor than the file can hold. */
@@ -178,7 +177,7 @@ static void exchange_output(struct run *run, struct checkpoint *checkpoint)
     if (checkpoint_is_reading(checkpoint) && checkpoint_is_good(checkpoint) && !are_sound(run))
         checkpoint_reject(checkpoint, "numbers of the output");
     if (scene->writes_animation)
-        checkpoint_item(checkpoint, "shown", run->is_shown, 1, run->mpm->store->count);
+        checkpoint_item(checkpoint, "shown", run->is_shown, 1, run->store->count);
     if (scene->writes_vtk)
         exchange_series(run, checkpoint);
 }
@@ -209,14 +208,15 @@ static bool exchange(struct run *run, struct checkpoint *checkpoint, const char 
     if (!checkpoint)
         return false;
     exchange_deck(run, checkpoint, path);
-    mpm_exchange(run->mpm, checkpoint);
+    run->method->exchange(run, checkpoint);
+    run->method->look(run);
     exchange_output(run, checkpoint);
     return checkpoint_close(checkpoint);
 }
 
 enum status restart_write(struct run *run)
 {
-    if (run->mpm->step == run->checkpoint_step)
+    if (run->course.step == run->checkpoint_step)
         return STATUS_FINISHED;
     if (!mark_tables(run))
         return STATUS_FILE;
@@ -224,7 +224,7 @@ enum status restart_write(struct run *run)
     bool is_written = exchange(run, checkpoint_create(path), path);
     memory_free(path);
     if (is_written)
-        run->checkpoint_step = run->mpm->step;
+        run->checkpoint_step = run->course.step;
     return is_written ? STATUS_FINISHED : STATUS_FILE;
 }
 
@@ -233,7 +233,7 @@ enum status restart_read(struct run *run)
     const char *path = run->options.restart;
     if (!exchange(run, checkpoint_open(path), path))
         return STATUS_FILE;
-    run->checkpoint_step = run->mpm->step;
+    run->checkpoint_step = run->course.step;
     return STATUS_FINISHED;
 }
 
@@ -247,6 +247,6 @@ enum status restart_continue(struct run *run)
     for (int i = 0; i < RUN_TABLES; i++)
         if (tables[i].stream && !table_return_to(&tables[i], &run->marks[i]))
             return STATUS_FILE;
-    fprintf(run->log, "Restarted from '%s' at step %ld, time %.6E\n", run->options.restart, run->mpm->step, run->mpm->time);
+    fprintf(run->log, "Restarted from '%s' at step %ld, time %.6E\n", run->options.restart, run->course.step, run->course.time);
     return !run->scene->writes_vtk || vtk_write_list(&run->vtk) ? STATUS_FINISHED : STATUS_FILE;
 }

@@ -5,7 +5,6 @@
 #include "base/threads.h"
 #include "deck/echo.h"
 #include "deck/reader.h"
-#include "mpm/equilibrium.h"
 #include "output/animation.h"
 #include "restart.h"
 #include "summary.h"
@@ -68,38 +67,16 @@ static enum status read_deck(struct run *run)
 
 static enum status build(struct run *run)
 {
-    run->mpm = mpm_open(run->scene, &run->timers, run->diagnostics);
-    run->is_shown = memory_array(run->scene->writes_animation ? run->mpm->store->count : 0, 1, "output");
+    run->method = method_of(run->scene->method);
+    run->method->open(run);
+    run->method->look(run);
+    run->is_shown = memory_array(run->scene->writes_animation ? run->store->count : 0, 1, "output");
     vtk_open(&run->vtk, run->options.folder, run->scene->job);
-    if (run->options.has_threads)
-        mpm_share_always(run->mpm);
     print_diagnostics(run);
-    run->source = (struct result_source){run->mpm->store, run->mpm->material_of_body, run->mpm->material_number_of_body,
-                                         &run->mpm->cells->count, run->scene->building.shows_ghosts};
     return diagnostics_errors(run->diagnostics) > 0 ? STATUS_DECK : STATUS_FINISHED;
 }
 
 /* --- output --- */
-
-/* Lists particles that left the grid since the last call. New ones come first in their part of the
- * order. */
-static void write_lost(struct run *run)
-{
-    const struct cell_list *cells = run->mpm->cells;
-    const struct store *store = run->mpm->store;
-    const int32_t lost = cells->count - cells->in_cells;
-    for (int32_t k = lost - run->known_lost - 1; k >= 0; k--) {
-        const int32_t p = cells->order[cells->in_cells + k];
-        table_real(&run->lost, run->mpm->time);
-        fprintf(run->lost.stream, " %9d", store->integer[COLUMN_ID][p] + 1);
-        for (int a = 0; a < 3; a++)
-            table_real(&run->lost, store->real[COLUMN_POSITION][a][p]);
-        for (int a = 0; a < 3; a++)
-            table_real(&run->lost, store->real[COLUMN_VELOCITY][a][p]);
-        table_end_line(&run->lost);
-    }
-    run->known_lost = lost;
-}
 
 /* The files of a run that goes on are there. */
 static enum table_mode mode_of(const struct run *run)
@@ -151,7 +128,7 @@ static enum status open_output(struct run *run)
  * them at the start), created inside the pt2d box of their body. */
 static void mark_shown(struct run *run)
 {
-    const struct store *store = run->mpm->store;
+    const struct store *store = run->store;
     const double *const x[3] = {store->real[COLUMN_POSITION][0], store->real[COLUMN_POSITION][1],
                                 store->real[COLUMN_POSITION][2]};
     if (run->dumps == 0)
@@ -162,9 +139,7 @@ static void mark_shown(struct run *run)
                 is_in = is_in && x[a][p] >= body->plot_box[2 * a] && x[a][p] <= body->plot_box[2 * a + 1];
             run->is_shown[store->integer[COLUMN_ID][p]] = is_in;
         }
-    const struct cell_list *cells = run->mpm->cells;
-    for (int32_t k = cells->count - run->lost_before_step; k < cells->count; k++)
-        run->is_shown[store->integer[COLUMN_ID][cells->order[k]]] = 0;
+    run->method->hide_lost(run);
 }
 
 static enum status write_dump(struct run *run)
@@ -172,12 +147,12 @@ static enum status write_dump(struct run *run)
     bool good = true;
     if (run->scene->writes_animation) {
         mark_shown(run);
-        good = animation_zone(&run->animation, run->scene, &run->source, run->is_shown, run->mpm->time);
+        good = animation_zone(&run->animation, run->scene, &run->source, run->is_shown, run->course.time);
     }
     if (run->scene->writes_vtk)
-        good = vtk_write(&run->vtk, run->scene, &run->source, run->mpm->time) && good;
+        good = vtk_write(&run->vtk, run->scene, &run->source, run->course.time) && good;
     run->dumps++;
-    fprintf(run->log, "Write output data at time %.6E\n", run->mpm->time);
+    fprintf(run->log, "Write output data at time %.6E\n", run->course.time);
     good = history_flush(&run->history) && good;
     if (fflush(run->log) != 0) {
         status_error("cannot write '%s': %s", run->log_path, strerror(errno));
@@ -188,11 +163,11 @@ static enum status write_dump(struct run *run)
 
 static void write_report_line(struct run *run)
 {
-    const struct mpm *mpm = run->mpm;
-    fprintf(run->log, " Step=%6ld   T=%10.3E   DT=%10.3E   K.E.=%10.3E  T.E.=%10.3E\n", mpm->step, mpm->time,
-            mpm->time_step, mpm->sums.kinetic, mpm->sums.kinetic + mpm->sums.internal);
-    fprintf(run->log, "              Mx=%10.3E   My=%10.3E   Mz=%10.3E\n", mpm->sums.momentum[0],
-            mpm->sums.momentum[1], mpm->sums.momentum[2]);
+    const struct history_totals *totals = &run->totals;
+    fprintf(run->log, " Step=%6ld   T=%10.3E   DT=%10.3E   K.E.=%10.3E  T.E.=%10.3E\n", run->course.step, run->course.time,
+            run->course.time_step, totals->kinetic, totals->kinetic + totals->internal);
+    fprintf(run->log, "              Mx=%10.3E   My=%10.3E   Mz=%10.3E\n", totals->momentum[0], totals->momentum[1],
+            totals->momentum[2]);
 }
 
 /* What the files of a new run begin with. */
@@ -206,11 +181,11 @@ static enum status start_output(struct run *run)
         animation_header(&run->animation, scene);
     if (scene->writes_lost) {
         fprintf(run->lost.stream, "VARIABLES = \"Time\" \"id\" \"X\" \"Y\" \"Z\" \"velx\" \"vely\" \"velz\"\n");
-        write_lost(run);
+        run->method->write_lost(run);
     }
     fprintf(run->log, "! mpm3d %s: the deck as understood; it can be run again\n", VERSION);
     echo_scene(scene, run->log, scene->n_particles <= 20000);
-    summary_start(run->mpm, run->log);
+    run->method->print_start(run, run->log);
     run->next_output = (float)scene->output_interval;
     return write_dump(run);
 }
@@ -254,95 +229,35 @@ enum status run_open(struct run *run, const struct run_options *options)
     if (status == STATUS_FINISHED)
         status = options->restart ? continue_output(run) : start_output(run);
     timers_enter(&run->timers, PHASE_OTHER);
-    progress_open(&run->progress, !options->quiet, run->mpm->time, run->scene->end_time);
+    progress_open(&run->progress, !options->quiet, run->course.time, run->scene->end_time);
     return status;
-}
-
-/* Whether particles are still to open, or a hot zone is to cool, before the run ends. */
-static bool opens_more(const struct run *run)
-{
-    const long next = building_next_step(run->mpm);
-    return next > 0 && !building_has_settled(run->mpm, next - 1);
-}
-
-/* Whether the last step ended the run for another reason than the end time; its state is written. */
-static bool ends_by_schedule(const struct run *run)
-{
-    if (run->scene->finds_equilibrium)
-        return !opens_more(run);
-    return building_has_settled(run->mpm, run->mpm->step);
 }
 
 bool run_goes_on(const struct run *run)
 {
-    const struct scene *scene = run->scene;
-    const struct sums *sums = &run->mpm->sums;
-    if (scene->finds_equilibrium)
-        return run->mpm->step == 0 || opens_more(run);
-    if (scene->building.settling >= 0)
-        return !ends_by_schedule(run);
-    double time = run->mpm->time, least = fmax(scene->end_time, scene->settling[0]);
-    if (run->mpm->step == 0 || time <= scene->end_time)
-        return true;
-    if (scene->loading_time == 0)
-        return false;
-    double latest = scene->settling[1] > 0 ? scene->settling[1] : 10 * least;
-    bool is_at_rest = sums->kinetic / (sums->kinetic + sums->internal) < 0.005 && time > scene->settling[0];
-    return !is_at_rest && time <= latest;
+    return run->method->goes_on(run);
 }
 
 /* The lines of this step, and the dump when it is due. The reference counts output times in
  * single precision; so does this (spec 5). */
 static enum status write_step(struct run *run)
 {
-    const struct mpm *mpm = run->mpm;
-    const struct history_totals totals = {mpm->time, mpm->sums.kinetic, mpm->sums.internal,
-                                          {mpm->sums.momentum[0], mpm->sums.momentum[1], mpm->sums.momentum[2]},
-                                          {mpm->contact_force[0], mpm->contact_force[1], mpm->contact_force[2]}};
+    const double time = run->course.time;
     enum status status = STATUS_FINISHED;
-    history_step(&run->history, run->scene, &run->source, &totals);
+    history_step(&run->history, run->scene, &run->source, &run->totals);
     if (run->scene->writes_lost)
-        write_lost(run);
-    if (mpm->time >= (double)run->next_report) {
+        run->method->write_lost(run);
+    if (time >= (double)run->next_report) {
         run->next_report = (float)((double)run->next_report + run->scene->report_interval);
         write_report_line(run);
     }
-    const bool is_due = mpm->time >= (double)run->next_output;
-    if (is_due || ends_by_schedule(run)) {
+    const bool is_due = time >= (double)run->next_output;
+    if (is_due || run->method->has_ended(run)) {
         if (is_due)
             run->next_output = (float)((double)run->next_output + run->scene->output_interval);
         status = write_dump(run);
     }
     return status;
-}
-
-/* An equilibrium instead of a time step: counted in time, told in the log. */
-static struct instability equilibrate(struct run *run)
-{
-    const long due = building_next_step(run->mpm);
-    if (due > 0)
-        building_step(run->mpm, due);
-    run->mpm->smooths = store_has(run->mpm->store, COLUMN_SMOOTHED_PRESSURE);
-    run->mpm->time += 1;
-    mpm_equilibrate(run->mpm);
-    if (equilibrium_report(run->mpm)->floating > 0 && !run->has_told_floating) {
-        run->has_told_floating = true;
-        summary_floating(run->mpm, stderr);
-        summary_floating(run->mpm, run->log);
-    }
-    summary_equilibrium(run->mpm, run->log);
-    return equilibrium_check(run->mpm);
-}
-
-static struct instability advance(struct run *run)
-{
-    if (run->scene->finds_equilibrium)
-        return equilibrate(run);
-    run->mpm->smooths = store_has(run->mpm->store, COLUMN_SMOOTHED_PRESSURE)
-                     && (run->mpm->time + run->mpm->time_step >= (double)run->next_output
-                         || building_has_settled(run->mpm, run->mpm->step + 1));
-    mpm_step(run->mpm);
-    return mpm_check(run->mpm);
 }
 
 /* Whether a checkpoint is to be written after a step that began at time `before`, or after the last one. */
@@ -354,8 +269,8 @@ static bool is_checkpoint_due(const struct run *run, double before)
     if (!run_goes_on(run))
         return true;
     if (scene->restart_steps > 0)
-        return run->mpm->step % scene->restart_steps == 0;
-    return floor(run->mpm->time / scene->restart_interval) > floor(before / scene->restart_interval);
+        return run->course.step % scene->restart_steps == 0;
+    return floor(run->course.time / scene->restart_interval) > floor(before / scene->restart_interval);
 }
 
 enum status run_interrupt(struct run *run)
@@ -366,22 +281,22 @@ enum status run_interrupt(struct run *run)
 
 enum status run_step(struct run *run)
 {
-    const double before = run->mpm->time;
-    run->lost_before_step = run->mpm->cells->count - run->mpm->cells->in_cells;
-    struct instability instability = advance(run);
+    const double before = run->course.time;
+    struct instability instability = run->method->advance(run);
+    run->method->look(run);
     if (instability.is_stopped) {
         if (run->scene->writes_lost)
-            write_lost(run);
+            run->method->write_lost(run);
         progress_close(&run->progress);
-        summary_instability(run->mpm, &instability, stderr);
-        summary_instability(run->mpm, &instability, run->log);
+        run->method->print_instability(run, &instability, stderr);
+        run->method->print_instability(run, &instability, run->log);
         return STATUS_UNSTABLE;
     }
     timers_enter(&run->timers, PHASE_OUTPUT);
     enum status status = write_step(run);
     if (status == STATUS_FINISHED && is_checkpoint_due(run, before))
         status = restart_write(run);
-    progress_show(&run->progress, run->mpm->step, run->mpm->time, run->scene->end_time);
+    progress_show(&run->progress, run->course.step, run->course.time, run->scene->end_time);
     timers_enter(&run->timers, PHASE_OTHER);
     return status;
 }
@@ -410,9 +325,9 @@ static enum status print_error(struct run *run, double seconds)
     enum status status = STATUS_FINISHED;
     mark_shown(run);
     for (int i = 0; i < 2 && status == STATUS_FINISHED; i++) {
-        status = reference_print(&run->reference, run->scene, &run->source, run->is_shown, run->mpm->time, streams[i]);
+        status = reference_print(&run->reference, run->scene, &run->source, run->is_shown, run->course.time, streams[i]);
         if (status == STATUS_FINISHED)
-            summary_cost(run->mpm, &run->timers, seconds, streams[i]);
+            summary_cost(&run->course, run->method->updates(run), &run->timers, seconds, streams[i]);
     }
     if (fflush(stdout) != 0) {
         status_error("cannot write the error: %s", strerror(errno));
@@ -435,12 +350,12 @@ enum status run_close(struct run *run, enum status status)
     if (run->is_under_way) {
         timers_enter(&run->timers, PHASE_OTHER);
         double seconds = threads_clock() - run->started;
-        summary_end(run->mpm, &run->timers, seconds, status, run->log);
+        run->method->print_end(run, seconds, status, run->log);
         if (!run->options.quiet)
-            summary_end(run->mpm, &run->timers, seconds, status, stderr);
+            run->method->print_end(run, seconds, status, stderr);
         if (status == STATUS_FINISHED) {
-            summary_doubt(run->mpm, run->log);
-            summary_doubt(run->mpm, stderr);
+            run->method->print_doubt(run, run->log);
+            run->method->print_doubt(run, stderr);
         }
         if (status == STATUS_FINISHED && run->options.reference)
             status = print_error(run, seconds);
@@ -455,7 +370,8 @@ enum status run_close(struct run *run, enum status status)
     memory_free(run->is_shown);
     memory_free(run->restart_folder);
     vtk_close(&run->vtk);
-    mpm_close(run->mpm);
+    if (run->method)
+        run->method->close(run);
     scene_close(run->scene);
     text_close(run->text);
     diagnostics_close(run->diagnostics);

@@ -7,7 +7,7 @@
 #include "base/status.h"
 #include "base/timers.h"
 #include "deck/diagnostics.h"
-#include "mpm/mpm.h"
+#include "method.h"
 #include "output/history.h"
 #include "output/progress.h"
 #include "output/reference.h"
@@ -24,6 +24,16 @@ struct run_options {
     bool only_check;
 };
 
+/* How far a run has come. */
+struct run_course {
+    long step;
+    double time, time_step;
+    long lost; /* particles that left */
+};
+
+struct mpm;
+struct sph;
+
 enum { RUN_TABLES = 7 };
 
 struct run {
@@ -32,7 +42,12 @@ struct run {
     struct deck_text *text;
     struct scene *scene;
     struct timers timers;
-    struct mpm *mpm;
+    const struct method *method;
+    struct mpm *mpm; /* one of the solvers */
+    struct sph *sph;
+    struct store *store; /* its particles */
+    struct run_course course;
+    struct history_totals totals;
     bool has_output;
     FILE *log;
     char *log_path;

@@ -106,29 +106,31 @@ static void print_systems(const struct mpm *mpm, FILE *stream)
 }
 
 /* Nanoseconds per particle-step without output. */
-static double solver_cost(const struct mpm *mpm, const struct timers *timers, double seconds)
+static double solver_cost(double updates, const struct timers *timers, double seconds)
 {
     double solver = seconds - timers->seconds[PHASE_OUTPUT] - timers->seconds[PHASE_OTHER];
-    return 1e9 * solver / (mpm->updates > 0 ? mpm->updates : 1);
+    return 1e9 * solver / (updates > 0 ? updates : 1);
 }
 
-void summary_cost(const struct mpm *mpm, const struct timers *timers, double seconds, FILE *stream)
+void summary_cost(const struct run_course *course, double updates, const struct timers *timers, double seconds, FILE *stream)
 {
-    fprintf(stream, "run time %.6f s, %ld steps, %.2f ns per particle-step without output\n", seconds, mpm->step,
-            solver_cost(mpm, timers, seconds));
+    fprintf(stream, "run time %.6f s, %ld steps, %.2f ns per particle-step without output\n", seconds, course->step,
+            solver_cost(updates, timers, seconds));
 }
 
-static void print_timers(const struct mpm *mpm, const struct timers *timers, double seconds, FILE *stream)
+void summary_timers(double updates, const struct timers *timers, double seconds, FILE *stream)
 {
-    double updates = mpm->updates > 0 ? mpm->updates : 1;
+    updates = updates > 0 ? updates : 1;
     fprintf(stream, "\n  phase                  seconds       %%   ns per particle-step\n");
     for (int phase = 0; phase < PHASE_COUNT; phase++) {
         double spent = timers->seconds[phase];
+        if (spent == 0)
+            continue;
         fprintf(stream, "  %-20s %9.3f  %6.1f   %8.2f\n", timers_name((enum phase)phase), spent,
                 seconds > 0 ? 100 * spent / seconds : 0, 1e9 * spent / updates);
     }
     fprintf(stream, "  %-20s %9.3f  %6.1f   %8.2f without output, %d threads\n\n", "total", seconds, 100.0,
-            solver_cost(mpm, timers, seconds), threads_available());
+            solver_cost(updates, timers, seconds), threads_available());
 }
 
 static void print_lost(const struct mpm *mpm, FILE *stream)
@@ -163,15 +165,19 @@ static double momentum_change(const struct mpm *mpm)
     return scale > 0 ? sqrt(change) / scale : 0;
 }
 
-void summary_end(const struct mpm *mpm, const struct timers *timers, double seconds, enum status status, FILE *stream)
+const char *summary_ending(enum status status)
 {
     static const char *const endings[] = {[STATUS_FINISHED] = "finished", [STATUS_UNSTABLE] = "stopped, unstable",
                                           [STATUS_FILE] = "stopped, a file could not be written"};
-    const char *ending = status == STATUS_INTERRUPTED ? "interrupted" : endings[status];
-    print_timers(mpm, timers, seconds, stream);
+    return status == STATUS_INTERRUPTED ? "interrupted" : endings[status];
+}
+
+void summary_end(const struct mpm *mpm, const struct timers *timers, double seconds, enum status status, FILE *stream)
+{
+    summary_timers(mpm->updates, timers, seconds, stream);
     if (mpm->equilibrium)
         print_systems(mpm, stream);
-    fprintf(stream, "%s after %ld steps at time %.6E: ", ending, mpm->step, mpm->time);
+    fprintf(stream, "%s after %ld steps at time %.6E: ", summary_ending(status), mpm->step, mpm->time);
     print_lost(mpm, stream);
     if (mpm->scene->finds_equilibrium) /* motion is left out, and with it the balance of its energy */
         fprintf(stream, "\n");

@@ -4,9 +4,25 @@
 #define SUMMARY_H
 
 #include "base/status.h"
+#include "base/timers.h"
 #include "mpm/mpm.h"
+#include "run.h"
+#include "sph/sph.h"
 
 #include <stdio.h>
+
+/* --- of all methods --- */
+
+/* How a run ended, in words. */
+const char *summary_ending(enum status status);
+
+/* Timer table by phase, cost per particle-step: `updates` of particles in all. */
+void summary_timers(double updates, const struct timers *timers, double seconds, FILE *stream);
+
+/* One line: run time, steps and cost per particle-step. */
+void summary_cost(const struct run_course *course, double updates, const struct timers *timers, double seconds, FILE *stream);
+
+/* --- of the material point method (summary.c) and of smoothed particles (summary_sph.c) --- */
 
 /* Counts, memory, energies and the first time step. */
 void summary_start(const struct mpm *mpm, FILE *stream);
@@ -17,9 +33,6 @@ void summary_end(const struct mpm *mpm, const struct timers *timers, double seco
 /* A warning where a run came to its end with energy from nowhere; else nothing. */
 void summary_doubt(const struct mpm *mpm, FILE *stream);
 
-/* One line: run time, steps and cost per particle-step. */
-void summary_cost(const struct mpm *mpm, const struct timers *timers, double seconds, FILE *stream);
-
 /* Why a run was stopped: step, time, particle, cause, what to try. */
 void summary_instability(const struct mpm *mpm, const struct instability *instability, FILE *stream);
 
@@ -29,5 +42,10 @@ void summary_check(const struct mpm *mpm, FILE *stream);
 /* Of a run with quas: that free motions of bodies are taken out, and how the last equilibrium was found. */
 void summary_floating(const struct mpm *mpm, FILE *stream);
 void summary_equilibrium(const struct mpm *mpm, FILE *stream);
+
+void summary_sph_check(const struct sph *sph, FILE *stream);
+void summary_sph_start(const struct sph *sph, FILE *stream);
+void summary_sph_instability(const struct sph *sph, const struct instability *instability, FILE *stream);
+void summary_sph_end(const struct sph *sph, const struct timers *timers, double seconds, enum status status, FILE *stream);
 
 #endif

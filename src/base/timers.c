@@ -11,6 +11,11 @@ static const char *const names[PHASE_COUNT] = {
     [PHASE_SYSTEM] = "linear systems",
     [PHASE_CELLS] = "cell lists",
     [PHASE_SORT] = "sorting",
+    [PHASE_DENSITY] = "density and walls",
+    [PHASE_SURFACE] = "surface",
+    [PHASE_FORCES] = "forces",
+    [PHASE_HEAT] = "heat and beam",
+    [PHASE_MOVE] = "motion",
     [PHASE_SUMS] = "sums and checks",
     [PHASE_OUTPUT] = "output",
 };

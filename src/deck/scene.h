@@ -3,8 +3,10 @@
 #ifndef DECK_SCENE_H
 #define DECK_SCENE_H
 
+#include "deck/scene_sph.h"
 #include "deck/text.h"
 #include "material/law.h"
+#include "material/properties.h"
 #include "particles/generate.h"
 #include "particles/results.h"
 
@@ -28,6 +30,7 @@ struct scene_material {
     bool is_given;
     struct deck_place place;
     struct scene_transformation transformation;
+    struct properties properties; /* of what melts and flows (prop) */
 };
 
 struct scene_body {
@@ -186,6 +189,8 @@ struct scene {
     struct scene_building building;
     struct scene_hold *holds;
     size_t n_holds, holds_capacity;
+    enum method_name method;
+    struct scene_sph sph;
 };
 
 /* An empty scene with the defaults of the dialect. */

@@ -3,6 +3,7 @@
 #ifndef MPM_MPM_H
 #define MPM_MPM_H
 
+#include "base/instability.h"
 #include "base/threads.h"
 #include "base/timers.h"
 #include "deck/scene.h"
@@ -134,14 +135,6 @@ double mpm_stable_step(const struct mpm *mpm, double fastest);
 /* Writes the whole state between two steps to a checkpoint, or takes it from one into a run of the same deck
  * that was just opened. What does not fit is reported there. */
 void mpm_exchange(struct mpm *mpm, struct checkpoint *checkpoint);
-
-/* Why the last step can't be trusted. */
-struct instability {
-    bool is_stopped;
-    long particle; /* id from 0, or -1 */
-    char cause[200];
-    char advice[200];
-};
 
 /* Whether energy is far beyond what the start and external forces gave, and for how long; once a step. */
 void mpm_watch_energy(struct mpm *mpm);

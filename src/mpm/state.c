@@ -54,38 +54,6 @@ static void exchange_fields(struct mpm *mpm, struct checkpoint *checkpoint)
         checkpoint_reject(checkpoint, "step and time");
 }
 
-/* Ids give the places; false when one is there twice, or a body that does not exist. */
-static bool index_particles(const struct mpm *mpm)
-{
-    struct store *store = mpm->store;
-    for (size_t p = 0; p < store->count; p++)
-        store->index_of_id[p] = -1;
-    for (size_t p = 0; p < store->count; p++) {
-        const int32_t id = store->integer[COLUMN_ID][p], body = store->integer[COLUMN_BODY][p];
-        if (id < 0 || (size_t)id >= store->count || store->index_of_id[id] >= 0)
-            return false;
-        if (body < 0 || (size_t)body >= mpm->scene->n_bodies)
-            return false;
-        store->index_of_id[id] = (int32_t)p;
-    }
-    return true;
-}
-
-/* Columns in the order of memory. */
-static void exchange_particles(struct mpm *mpm, struct checkpoint *checkpoint)
-{
-    const struct store *store = mpm->store;
-    for (int c = COLUMN_NONE + 1; c < COLUMN_COUNT; c++) {
-        const struct column_row *row = column_row((enum column)c);
-        if (store->integer[c])
-            checkpoint_item(checkpoint, row->name, store->integer[c], sizeof(int32_t), store->count);
-        for (int a = 0; a < row->components && store->real[c][a]; a++)
-            checkpoint_item(checkpoint, row->name, store->real[c][a], sizeof(double), store->count);
-    }
-    if (checkpoint_is_reading(checkpoint) && checkpoint_is_good(checkpoint) && !index_particles(mpm))
-        checkpoint_reject(checkpoint, "ids and bodies");
-}
-
 static void swap_columns(struct store *store, enum column first, enum column second)
 {
     for (int a = 0; a < 3; a++) {
@@ -143,7 +111,7 @@ static void exchange_cells(struct mpm *mpm, struct checkpoint *checkpoint)
 void mpm_exchange(struct mpm *mpm, struct checkpoint *checkpoint)
 {
     exchange_fields(mpm, checkpoint);
-    exchange_particles(mpm, checkpoint);
+    store_exchange(mpm->store, checkpoint, mpm->scene->n_bodies);
     exchange_cells(mpm, checkpoint);
     building_exchange(mpm, checkpoint);
     if (mpm->equilibrium)

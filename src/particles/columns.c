@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "particles/columns.h"
+#include "base/checkpoint.h"
 #include "base/memory.h"
 
 #include <string.h>
@@ -32,9 +33,29 @@ static const struct column_row rows[COLUMN_COUNT] = {
     [COLUMN_LOAD] = {"load", 3, false, 0, "force", "force from the load block"},
     [COLUMN_RESIDUAL] = {"residual", 6, false, 0, "stress", "residual stress xx yy zz yz xz xy, taken off in internal forces"},
     [COLUMN_INITIAL_POSITION] = {"initial_position", 3, false, 0, "length", "position at the start"},
+    [COLUMN_DENSITY] = {"density", 1, false, 0, "mass/length^3", "density"},
+    [COLUMN_REFERENCE_DENSITY] = {"reference_density", 1, false, 0, "mass/length^3", "density without pressure at the present temperature"},
+    [COLUMN_PRESSURE] = {"pressure", 1, false, 0, "stress", "pressure"},
+    [COLUMN_EXCESS_OFFSET] = {"excess_offset", 1, false, 0, "mass/length^3", "part of the density above the reference that gives no pressure"},
+    [COLUMN_EXCESS_GRADIENT] = {"excess_gradient", 3, false, 0, "mass/length^4", "gradient of the density above the reference"},
+    [COLUMN_SMOOTHING_LENGTH] = {"smoothing_length", 1, false, 0, "length", "h of the kernel"},
+    [COLUMN_VISCOSITY] = {"viscosity", 1, false, 0, "stress*time", "dynamic viscosity"},
+    [COLUMN_SHEPARD] = {"shepard", 1, false, 0, NULL, "sum of volumes times the kernel"},
+    [COLUMN_NORMAL] = {"normal", 3, false, 0, "1/length", "twice the gradient of the filled space, with the kernel of the forces"},
+    [COLUMN_WIDE_NORMAL] = {"wide_normal", 3, false, 0, "1/length", "the same with the wide kernel"},
+    [COLUMN_WIDE_SHEPARD] = {"wide_shepard", 1, false, 0, NULL, "sum of volumes times the wide kernel"},
+    [COLUMN_CURVATURE] = {"curvature", 1, false, 0, "1/length", "curvature of the surface, positive on a drop"},
+    [COLUMN_ACCELERATION] = {"acceleration", 3, false, 0, "length/time^2", "acceleration"},
+    [COLUMN_LISTED_POSITION] = {"listed_position", 3, false, 0, "length", "position when neighbours were listed last"},
+    [COLUMN_ENTHALPY] = {"enthalpy", 1, false, 0, "energy/mass", "specific enthalpy, 0 at 293"},
+    [COLUMN_LIQUID] = {"liquid", 1, false, 1, NULL, "liquid fraction"},
+    [COLUMN_CONDUCTIVITY] = {"conductivity", 1, false, 0, "power/(length*temperature)", "heat conductivity"},
+    [COLUMN_HEAT_RATE] = {"heat_rate", 1, false, 0, "power", "heat that flows in"},
+    [COLUMN_LASER_POWER] = {"laser_power", 1, false, 0, "power", "power taken from the beam"},
     [COLUMN_ID] = {"id", 1, true, 0, NULL, "number of the particle"},
     [COLUMN_BODY] = {"body", 1, true, 0, NULL, "body of the particle"},
     [COLUMN_LAYER] = {"layer", 1, true, 0, NULL, "layer of the build, from 0"},
+    [COLUMN_STATE] = {"state", 1, true, 0, NULL, "0 fluid, 1 solid, 2 wall, 3 removed"},
 };
 
 const struct column_row *column_row(enum column column)
@@ -134,4 +155,33 @@ double store_pressure(const struct store *store, size_t p)
     if (store_has(store, COLUMN_MEAN_STRESS))
         return -store->real[COLUMN_MEAN_STRESS][0][p];
     return -(store->real[COLUMN_STRESS][0][p] + store->real[COLUMN_STRESS][1][p] + store->real[COLUMN_STRESS][2][p]) / 3;
+}
+
+/* Ids give the places; false when one is there twice, or a body that does not exist. */
+static bool index_particles(struct store *store, size_t bodies)
+{
+    for (size_t p = 0; p < store->count; p++)
+        store->index_of_id[p] = -1;
+    for (size_t p = 0; p < store->count; p++) {
+        const int32_t id = store->integer[COLUMN_ID][p], body = store->integer[COLUMN_BODY][p];
+        if (id < 0 || (size_t)id >= store->count || store->index_of_id[id] >= 0)
+            return false;
+        if (body < 0 || (size_t)body >= bodies)
+            return false;
+        store->index_of_id[id] = (int32_t)p;
+    }
+    return true;
+}
+
+void store_exchange(struct store *store, struct checkpoint *checkpoint, size_t bodies)
+{
+    for (int c = COLUMN_NONE + 1; c < COLUMN_COUNT; c++) {
+        const struct column_row *row = column_row((enum column)c);
+        if (store->integer[c])
+            checkpoint_item(checkpoint, row->name, store->integer[c], sizeof(int32_t), store->count);
+        for (int a = 0; a < row->components && store->real[c][a]; a++)
+            checkpoint_item(checkpoint, row->name, store->real[c][a], sizeof(double), store->count);
+    }
+    if (checkpoint_is_reading(checkpoint) && checkpoint_is_good(checkpoint) && !index_particles(store, bodies))
+        checkpoint_reject(checkpoint, "ids and bodies");
 }

@@ -33,9 +33,29 @@ enum column {
     COLUMN_LOAD,
     COLUMN_RESIDUAL,
     COLUMN_INITIAL_POSITION,
+    COLUMN_DENSITY,
+    COLUMN_REFERENCE_DENSITY,
+    COLUMN_PRESSURE,
+    COLUMN_EXCESS_OFFSET,
+    COLUMN_EXCESS_GRADIENT,
+    COLUMN_SMOOTHING_LENGTH,
+    COLUMN_VISCOSITY,
+    COLUMN_SHEPARD,
+    COLUMN_NORMAL,
+    COLUMN_WIDE_NORMAL,
+    COLUMN_WIDE_SHEPARD,
+    COLUMN_CURVATURE,
+    COLUMN_ACCELERATION,
+    COLUMN_LISTED_POSITION,
+    COLUMN_ENTHALPY,
+    COLUMN_LIQUID,
+    COLUMN_CONDUCTIVITY,
+    COLUMN_HEAT_RATE,
+    COLUMN_LASER_POWER,
     COLUMN_ID,
     COLUMN_BODY,
     COLUMN_LAYER,
+    COLUMN_STATE,
     COLUMN_COUNT
 };
 
@@ -79,6 +99,10 @@ size_t store_bytes_per_particle(const struct store *store);
 /* Pressure of the particle at place p: of the equation of state where there is one, else minus the
  * mean of its stress. */
 double store_pressure(const struct store *store, size_t p);
+
+/* Writes all columns in the order of memory to a checkpoint, or takes them from one; there ids and bodies are looked at. */
+struct checkpoint;
+void store_exchange(struct store *store, struct checkpoint *checkpoint, size_t bodies);
 
 static inline uint64_t column_bit(enum column column)
 {

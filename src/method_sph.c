@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Smoothed particles as a run sees them. */
+#include "run.h"
+#include "sph/sph.h"
+#include "summary.h"
+
+static void open_solver(struct run *run)
+{
+    struct sph *sph = run->sph = sph_open(run->scene, &run->timers, run->diagnostics);
+    if (run->options.has_threads)
+        sph_share_always(sph);
+    run->store = sph->store;
+    run->source = (struct result_source){.store = sph->store, .body_material = sph->material_of_body,
+                                         .body_material_number = sph->material_number_of_body};
+}
+
+static void close_solver(struct run *run)
+{
+    sph_close(run->sph);
+}
+
+static struct instability advance(struct run *run)
+{
+    sph_step(run->sph);
+    return sph_check(run->sph);
+}
+
+static void look(struct run *run)
+{
+    const struct sph *sph = run->sph;
+    run->course = (struct run_course){sph->step, sph->time, sph->time_step, sph->budget.removed};
+    run->totals.time = sph->time;
+    run->totals.kinetic = sph->budget.kinetic;
+    run->totals.internal = sph->budget.internal;
+    for (int a = 0; a < 3; a++)
+        run->totals.momentum[a] = sph->budget.momentum[a];
+}
+
+static bool goes_on(const struct run *run)
+{
+    return run->sph->step == 0 || run->sph->time <= run->scene->end_time;
+}
+
+static bool has_ended(const struct run *run)
+{
+    (void)run;
+    return false;
+}
+
+static void hide_lost(struct run *run)
+{
+    for (size_t p = 0; p < run->store->count; p++)
+        if (run->store->integer[COLUMN_STATE][p] == SPH_REMOVED)
+            run->is_shown[run->store->integer[COLUMN_ID][p]] = 0;
+}
+
+/* Removed particles are told in the summary; nothing leaves otherwise. */
+static void write_lost(struct run *run)
+{
+    (void)run;
+}
+
+static void exchange(struct run *run, struct checkpoint *checkpoint)
+{
+    sph_exchange(run->sph, checkpoint);
+}
+
+static void print_scene(const struct run *run, FILE *stream)
+{
+    summary_sph_check(run->sph, stream);
+}
+
+static void print_start(const struct run *run, FILE *stream)
+{
+    summary_sph_start(run->sph, stream);
+}
+
+static void print_instability(const struct run *run, const struct instability *instability, FILE *stream)
+{
+    summary_sph_instability(run->sph, instability, stream);
+}
+
+static void print_end(const struct run *run, double seconds, enum status status, FILE *stream)
+{
+    summary_sph_end(run->sph, &run->timers, seconds, status, stream);
+}
+
+static void print_doubt(const struct run *run, FILE *stream)
+{
+    (void)run;
+    (void)stream;
+}
+
+static double updates(const struct run *run)
+{
+    return run->sph->updates;
+}
+
+const struct method method_sph = {
+    .name = "sph",
+    .open = open_solver,
+    .close = close_solver,
+    .advance = advance,
+    .look = look,
+    .goes_on = goes_on,
+    .has_ended = has_ended,
+    .hide_lost = hide_lost,
+    .write_lost = write_lost,
+    .exchange = exchange,
+    .print_scene = print_scene,
+    .print_start = print_start,
+    .print_instability = print_instability,
+    .print_end = print_end,
+    .print_doubt = print_doubt,
+    .updates = updates,
+};

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Notices a run of smoothed particles that can't be trusted any more. */
+#include "sph/sph.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* A step below this fraction of the first one is a slow blow-up. */
+static const double LEAST_STEP_FRACTION = 1e-6;
+/* Densities outside this range of their reference are no liquid any more. */
+static const double THINNEST = 0.3, DENSEST = 2;
+
+/* The particle for which `measure` is largest; NaN counts as largest. */
+static long worst_particle(const struct sph *sph, double (*measure)(const struct sph *sph, size_t p))
+{
+    long found = -1;
+    double most = -INFINITY;
+    for (size_t id = 0; id < sph->store->count; id++) {
+        const size_t p = (size_t)sph->store->index_of_id[id];
+        if (sph->columns.state[p] == SPH_REMOVED)
+            continue;
+        const double value = measure(sph, p);
+        if (isnan(value))
+            return (long)id;
+        if (value > most) {
+            most = value;
+            found = (long)id;
+        }
+    }
+    return found;
+}
+
+static double not_finite(const struct sph *sph, size_t p)
+{
+    const struct sph_columns *c = &sph->columns;
+    double sum = c->temperature[p] + c->density[p];
+    for (int a = 0; a < 3; a++)
+        sum += c->x[a][p] + c->v[a][p] + c->a[a][p];
+    return isfinite(sum) ? 0 : NAN;
+}
+
+static double speed(const struct sph *sph, size_t p)
+{
+    double square = 0;
+    for (int a = 0; a < 3 && sph->columns.state[p] == SPH_FLUID; a++)
+        square += sph->columns.v[a][p] * sph->columns.v[a][p];
+    return square;
+}
+
+static double compression(const struct sph *sph, size_t p)
+{
+    return sph->columns.state[p] == SPH_FLUID ? sph->columns.density[p] / sph->columns.reference[p] : 1;
+}
+
+static double expansion(const struct sph *sph, size_t p)
+{
+    return -compression(sph, p);
+}
+
+static bool find_not_finite(const struct sph *sph, struct instability *result)
+{
+    if (sph->budget.is_finite)
+        return false;
+    result->particle = worst_particle(sph, not_finite);
+    snprintf(result->cause, sizeof result->cause, "a value is not finite");
+    return true;
+}
+
+static bool find_leap(const struct sph *sph, struct instability *result)
+{
+    const double way = sph->budget.fastest * sph->taken_step / sph->smoothing;
+    if (way <= 1)
+        return false;
+    result->particle = worst_particle(sph, speed);
+    snprintf(result->cause, sizeof result->cause, "a particle moves %.3g smoothing lengths a step", way);
+    return true;
+}
+
+static bool find_density(const struct sph *sph, struct instability *result)
+{
+    const double least = sph->budget.least_density_ratio, most = sph->budget.most_density_ratio;
+    if (!(least < THINNEST) && !(most > DENSEST))
+        return false;
+    result->particle = worst_particle(sph, most > DENSEST ? compression : expansion);
+    snprintf(result->cause, sizeof result->cause, "the density of a particle is %.3g times that without pressure",
+             most > DENSEST ? most : least);
+    snprintf(result->advice, sizeof result->advice, "try a larger sound speed c0, or a smaller cfl");
+    return true;
+}
+
+static bool find_small_step(const struct sph *sph, struct instability *result)
+{
+    const double floor = sph->scene->least_step > 0 ? sph->scene->least_step : LEAST_STEP_FRACTION * sph->first_time_step;
+    if (sph->time_step >= floor || sph->time + sph->time_step > sph->scene->end_time)
+        return false;
+    result->particle = worst_particle(sph, speed);
+    snprintf(result->cause, sizeof result->cause, "the time step fell to %.3g, %.3g of the first one; it is limited by %s",
+             sph->time_step, sph->time_step / sph->first_time_step, sph->limiting);
+    return true;
+}
+
+static bool find_fixed_step(const struct sph *sph, struct instability *result)
+{
+    if (sph->scene->fixed_step == 0 || sph->scene->fixed_step <= sph->stable_step)
+        return false;
+    result->particle = worst_particle(sph, speed);
+    snprintf(result->cause, sizeof result->cause, "the fixed time step %.3g is above the stable one, %.3g, limited by %s",
+             sph->scene->fixed_step, sph->stable_step, sph->limiting);
+    snprintf(result->advice, sizeof result->advice, "try dtfx %.2g or less, or leave it out", sph->stable_step);
+    return true;
+}
+
+struct instability sph_check(const struct sph *sph)
+{
+    static bool (*const finders[])(const struct sph *, struct instability *) = {find_not_finite, find_leap, find_density,
+                                                                                 find_small_step, find_fixed_step};
+    struct instability result;
+    result.is_stopped = false;
+    result.particle = -1;
+    result.advice[0] = 0;
+    for (size_t i = 0; i < sizeof finders / sizeof finders[0] && !result.is_stopped; i++)
+        result.is_stopped = finders[i](sph, &result);
+    if (result.is_stopped && !result.advice[0])
+        snprintf(result.advice, sizeof result.advice, "try a smaller cfl, or a larger sound speed c0");
+    return result;
+}

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a run of smoothed particles is between two steps: particles in the order of memory, and numbers that go on.
+ * Neighbours' lists follow from where particles were when they were listed. */
+#include "base/checkpoint.h"
+#include "sph/sph.h"
+
+#include <stddef.h>
+
+#define FIELD(name) {#name, offsetof(struct sph, name), sizeof(((struct sph *)NULL)->name)}
+
+static const struct {
+    const char *name;
+    size_t offset, size;
+} fields[] = {
+    FIELD(step),       FIELD(time),         FIELD(time_step),    FIELD(taken_step), FIELD(first_time_step),
+    FIELD(stable_step), FIELD(sound_speed), FIELD(updates),     FIELD(budget),     FIELD(start_energy),
+    FIELD(start_heat), FIELD(start_momentum),
+};
+
+void sph_exchange(struct sph *sph, struct checkpoint *checkpoint)
+{
+    for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
+        checkpoint_item(checkpoint, fields[i].name, (char *)sph + fields[i].offset, fields[i].size, 1);
+    store_exchange(sph->store, checkpoint, sph->scene->n_bodies);
+    const struct store *store = sph->store;
+    for (size_t p = 0; p < store->count && checkpoint_is_reading(checkpoint) && checkpoint_is_good(checkpoint); p++)
+        if (store->integer[COLUMN_STATE][p] < SPH_FLUID || store->integer[COLUMN_STATE][p] > SPH_REMOVED)
+            checkpoint_reject(checkpoint, "states");
+    long builds = sph->neighbours->builds;
+    checkpoint_item(checkpoint, "builds", &builds, sizeof builds, 1);
+    if (!checkpoint_is_reading(checkpoint) || !checkpoint_is_good(checkpoint))
+        return;
+    sph_bind(sph);
+    if (builds > 0)
+        neighbours_restore(sph->neighbours);
+    sph->neighbours->builds = builds;
+}

@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Smoothed particle hydrodynamics of melting metal (spec am-sph): what a run of it owns, and its steps.
+ *
+ * A step at time n, with velocities of n - 1/2 (spec 11):
+ *   1 neighbours   lists are made anew where particles have moved too far
+ *   2 properties   from the temperature: reference density, viscosity, conductivity
+ *   3 gradients    of the density excess, for the diffusion of density
+ *   4 density      from continuity; Shepard sums and normals; pressure
+ *   5 walls        pressure and velocity of walls and solids, from the fluid beside them
+ *   6 surface      curvature in the band of the surface
+ *   7 forces       pressure, viscosity, gravity, surface tension, Marangoni, recoil
+ *   8 heat         conduction, viscous heat, radiation, beam, evaporation
+ *   9 advance      velocity, position, enthalpy, temperature; what melts and solidifies
+ *
+ * Each particle gathers over its own list, so that results do not depend on the number of threads; sums over
+ * particles go by portions of fixed size in the order of memory. */
+#ifndef SPH_SPH_H
+#define SPH_SPH_H
+
+#include "base/instability.h"
+#include "base/timers.h"
+#include "deck/scene.h"
+#include "material/properties.h"
+#include "sph/kernel.h"
+#include "sph/neighbours.h"
+#include "sph/state.h"
+
+/* What a body is to the particles. */
+struct sph_body {
+    const struct properties *properties;
+    const struct scene_wall *wall;         /* or NULL */
+    const struct scene_swelling *swelling; /* or NULL */
+    double gravity[3];
+};
+
+/* The columns that loops go over, by name; they move when particles are sorted (sph_bind). */
+struct sph_columns {
+    double *x[3], *v[3], *a[3];
+    double *mass, *volume, *density, *reference, *pressure, *excess_offset;
+    double *excess_gradient[3];           /* NULL without diffused gradients */
+    double *smoothing;
+    double *viscosity, *shepard;
+    double *normal[3];                    /* N of spec 6.3 A; NULL without surface forces, radiation, evaporation */
+    double *wide_normal[3], *wide_shepard, *curvature;
+    double *temperature, *enthalpy, *liquid, *conductivity, *heat_rate, *laser_power; /* NULL without heat (and beam) */
+    int32_t *state, *body;
+};
+
+/* Sums that a step leaves behind; a row of results names each for `curv`. All in the units of the deck; in two
+ * dimensions per length across the plane. */
+struct sph_budget {
+    double kinetic, internal;   /* 1/2 m v^2; elastic energy of compression c0^2 ... */
+    double momentum[3];
+    double heat;                /* sum of m H */
+    double laser_in, absorbed, reflected, transmitted; /* since the start */
+    double radiated, evaporated, removed_heat;       /* that went out */
+    double through_walls, viscous_heat, volume_heat; /* that came in */
+    double removed_mass, evaporated_mass;
+    long removed;
+    double fastest;             /* largest speed of fluid */
+    double hottest;
+    double largest_acceleration;
+    double least_density_ratio, most_density_ratio; /* of rho over rho0 */
+    bool is_finite;
+};
+
+/* Powers of the step under way; heat_advance adds what they bring to the budget. `through_walls` is what comes in. */
+struct sph_powers {
+    double laser_in, absorbed, reflected, transmitted;
+    double radiated, evaporated, through_walls, viscous_heat, volume_heat;
+    double evaporated_mass; /* per time */
+};
+
+struct sph {
+    const struct scene *scene;
+    const struct scene_sph *words;
+    struct store *store;
+    struct neighbours *neighbours;
+    struct timers *timers;
+    struct sph_body *bodies;
+    const struct material **material_of_body;
+    int *material_number_of_body;
+    struct sph_columns columns;
+    int dimension;
+    double spacing;             /* of the lattice at the start */
+    double period;              /* the scene repeats along x after this length; 0: it does not */
+    double smoothing;           /* h at the start */
+    struct kernel kernel, wide; /* with h and h_s of the start; pairs with varying h make their own */
+    double self_value;          /* W(0) of kernel */
+    double sound_speed;
+    double courant;
+    bool is_shared;             /* threads share the work: there is enough of it, or a number was asked for */
+    bool has_fixed;             /* walls or solids */
+    bool needs_normals;         /* for surface forces, radiation, evaporation or shifting */
+
+    long step;
+    double time;
+    double time_step;   /* of the step under way or the next one */
+    double taken_step;  /* of the last step */
+    double first_time_step, stable_step;
+    const char *limiting; /* what limits the time step, for the log */
+    double updates;     /* particles that took part, summed over steps */
+    struct sph_budget budget;
+    struct sph_powers powers;
+    double start_energy, start_heat, start_momentum[3];
+
+    /* The particles of the surface's band, in memory order (surface.c). */
+    int32_t *band;
+    size_t n_band;
+    int32_t *is_kept;   /* per particle: has a normal good enough for a curvature */
+    unsigned char *saw_motion; /* per particle: it or one beside it moved when normals of walls and solids were made last */
+    long normals_builds;       /* the builds of neighbours that this was with */
+    double *work[3];    /* room for one number a particle */
+
+    /* Made anew in each step, per particle (flow.c). */
+    double *seen[3];       /* velocities that pairs see: of walls and solids first their own, for the forces the mirrored ones */
+    double *fluid_volume;  /* volume of fluid; 0 for walls and solids */
+    double *excess;        /* density above the reference that gives pressure; 0 for walls and solids */
+    double *rate;          /* of the density */
+    struct sph_portion *portions; /* sums of portions of the particles (budget.c) */
+
+    struct sph_heat *heat;   /* what heat.c and laser.c keep; made when first needed */
+    struct sph_march *march;
+};
+
+/* Builds the run of a scene; what only shows now goes to `diagnostics`. */
+struct diagnostics;
+struct sph *sph_open(struct scene *scene, struct timers *timers, struct diagnostics *diagnostics);
+void sph_close(struct sph *sph);
+
+/* Lets threads share the work of small scenes too, where they only cost. */
+void sph_share_always(struct sph *sph);
+
+/* One step. */
+void sph_step(struct sph *sph);
+
+/* Points the columns of `sph` at those of the store; after each sorting. */
+void sph_bind(struct sph *sph);
+
+/* --- the parts of a step; each works on all particles --- */
+
+/* From temperature (or the start): reference density with its swelling, viscosity, conductivity (heat.c). */
+void heat_properties(struct sph *sph);
+
+void flow_prepare(struct sph *sph);   /* seen velocities, fluid volumes, excess */
+void flow_gradients(struct sph *sph);
+void flow_density(struct sph *sph, double time_step);
+void flow_walls(struct sph *sph);
+void flow_forces(struct sph *sph); /* sets the acceleration */
+void flow_advance(struct sph *sph, double half_steps, double time_step); /* velocities by the first, positions by the second */
+
+void surface_find(struct sph *sph);
+void surface_forces(struct sph *sph); /* adds to the acceleration */
+
+void heat_flow(struct sph *sph);                     /* sets the heat rate: conduction, viscous heat, radiation, volume heat */
+void laser_deposit(struct sph *sph);                 /* sets the laser power; with its budget */
+void heat_advance(struct sph *sph, double time_step); /* enthalpy, temperature, liquid fraction, states */
+void heat_free(struct sph *sph);
+void laser_free(struct sph *sph);
+
+/* The largest time step that is stable (spec 12), and what limits it. */
+double limits_time_step(struct sph *sph);
+
+/* Sums after a step. */
+void budget_update(struct sph *sph);
+
+/* Looks at the sums of the last step (and at particles only when something is wrong). */
+struct instability sph_check(const struct sph *sph);
+
+/* Writes the whole state between two steps to a checkpoint, or takes it from one into a run of the same deck
+ * that was just opened. What does not fit is reported there. */
+struct checkpoint;
+void sph_exchange(struct sph *sph, struct checkpoint *checkpoint);
+
+/* Energy of heat that is not accounted for, relative to what came in or was there. */
+double sph_heat_error(const struct sph *sph);
+
+#endif

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a smoothed particle is (COLUMN_STATE). */
+#ifndef SPH_STATE_H
+#define SPH_STATE_H
+
+enum sph_state {
+    SPH_FLUID,   /* moves; liquid or mushy */
+    SPH_SOLID,   /* stays where it is, conducts heat, may melt */
+    SPH_WALL,    /* belongs to a body that is a wall */
+    SPH_REMOVED  /* takes part in nothing any more */
+};
+
+#endif
