@@ -181,19 +181,23 @@ fuzz_objects := $(sources:src/%.c=build/fuzz/%.o)
 fuzz_library := $(filter-out build/fuzz/main.o,$(fuzz_objects))
 fuzz_parts   := tests/fuzz/folder.c tests/fuzz/fuzz.h tests/fuzz/folder.h
 
-# How each is searched: its longest input in bytes; seconds that none may exceed; messages of the program are not shown.
+# How each is searched: longest input in bytes, seconds that none may exceed; messages of runs are not shown.
 fuzz_options_deck       := -max_len=4096 -timeout=1
-fuzz_options_checkpoint := -max_len=1024 -timeout=5 -close_fd_mask=2
+fuzz_options_checkpoint := -max_len=1024 -timeout=5 -entropic=0 -close_fd_mask=2
 fuzz_options_stl        := -max_len=4096 -timeout=2
 
 $(build)/fuzz_replay_%: tests/fuzz/replay.c tests/fuzz/fuzz_%.c $(fuzz_parts) $(library)
 	@echo "  CC  $@"
 	@$(CC) $(CPPFLAGS) $(filter-out -MMD -MP,$(flags)) $(CFLAGS) $(san) $(openmp) $(filter %.c %.o,$^) -lm -o $@
 
+# The method counts where it was, but not what it compares: numbers of particles are no words to find.
+fuzz_watch = $(if $(filter mpm/% material/%,$*),-fsanitize-coverage=inline-8bit-counters$(comma)pc-table,-fsanitize=fuzzer-no-link)
+comma := ,
+
 build/fuzz/%.o: src/%.c Makefile
 	@mkdir -p $(@D)
 	@echo "  CC  $@"
-	@clang $(fuzz_flags) -fsanitize=fuzzer-no-link -c $< -o $@
+	@clang $(fuzz_flags) $(fuzz_watch) -c $< -o $@
 
 build/fuzz_%: tests/fuzz/libfuzzer.c tests/fuzz/fuzz_%.c $(fuzz_parts) $(fuzz_library)
 	@echo "  CC  $@"
@@ -210,5 +214,5 @@ fuzz-%: build/fuzz_%
 	build/fuzz_$* -max_total_time=$(fuzz_share) $(fuzz_options_$*) -rss_limit_mb=2048 -print_final_stats=1 \
 	    -dict=tests/fuzz/$*.dict -artifact_prefix=build/$*- build/corpus_$* tests/fuzz/seeds_$*
 
-.SECONDARY: $(fuzz_objects)
+.SECONDARY: $(fuzz_objects) $(FUZZ:%=build/fuzz_%)
 -include $(fuzz_objects:.o=.d)
