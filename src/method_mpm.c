@@ -27,10 +27,10 @@ static void look(struct run *run)
     const struct mpm *mpm = run->mpm;
     run->course = (struct run_course){mpm->step, mpm->time, mpm->time_step, mpm->cells->count - mpm->cells->in_cells};
     run->totals.time = mpm->time;
-    run->totals.kinetic = mpm->sums.kinetic;
-    run->totals.internal = mpm->sums.internal;
+    run->totals.value[TOTAL_KINETIC] = mpm->sums.kinetic;
+    run->totals.value[TOTAL_INTERNAL] = mpm->sums.internal;
     for (int a = 0; a < 3; a++) {
-        run->totals.momentum[a] = mpm->sums.momentum[a];
+        run->totals.value[TOTAL_MOMENTUM_X + a] = mpm->sums.momentum[a];
         run->totals.contact[a] = mpm->contact_force[a];
     }
 }

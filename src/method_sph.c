@@ -25,15 +25,53 @@ static struct instability advance(struct run *run)
     return sph_check(run->sph);
 }
 
+static void put_totals(const struct sph_budget *budget, double *value)
+{
+    value[TOTAL_KINETIC] = budget->kinetic;
+    value[TOTAL_INTERNAL] = budget->internal;
+    for (int a = 0; a < 3; a++)
+        value[TOTAL_MOMENTUM_X + a] = budget->momentum[a];
+    value[TOTAL_HEAT] = budget->heat;
+    value[TOTAL_LASER_IN] = budget->laser_in;
+    value[TOTAL_ABSORBED] = budget->absorbed;
+    value[TOTAL_REFLECTED] = budget->reflected;
+    value[TOTAL_TRANSMITTED] = budget->transmitted;
+    value[TOTAL_RADIATED] = budget->radiated;
+    value[TOTAL_EVAPORATED] = budget->evaporated;
+    value[TOTAL_THROUGH_WALLS] = budget->through_walls;
+    value[TOTAL_VISCOUS_HEAT] = budget->viscous_heat;
+    value[TOTAL_VOLUME_HEAT] = budget->volume_heat;
+    value[TOTAL_HOTTEST] = budget->hottest;
+    value[TOTAL_FASTEST] = budget->fastest;
+    value[TOTAL_REMOVED] = (double)budget->removed;
+}
+
+static bool shows_pool(const struct scene *scene)
+{
+    for (size_t i = 0; i < scene->n_curves; i++)
+        if (scene->curves[i].result->total >= TOTAL_POOL_LENGTH && scene->curves[i].result->total <= TOTAL_POOL_DEPTH)
+            return true;
+    return false;
+}
+
+/* In two dimensions the beam comes down along y, and the pool has no width. */
+static void put_pool(const struct sph *sph, double *value)
+{
+    double extents[3];
+    sph_pool(sph, extents);
+    value[TOTAL_POOL_LENGTH] = extents[0];
+    value[TOTAL_POOL_WIDTH] = sph->dimension == 3 ? extents[1] : 0;
+    value[TOTAL_POOL_DEPTH] = extents[sph->dimension - 1];
+}
+
 static void look(struct run *run)
 {
     const struct sph *sph = run->sph;
     run->course = (struct run_course){sph->step, sph->time, sph->time_step, sph->budget.removed};
     run->totals.time = sph->time;
-    run->totals.kinetic = sph->budget.kinetic;
-    run->totals.internal = sph->budget.internal;
-    for (int a = 0; a < 3; a++)
-        run->totals.momentum[a] = sph->budget.momentum[a];
+    put_totals(&sph->budget, run->totals.value);
+    if (shows_pool(run->scene))
+        put_pool(sph, run->totals.value);
 }
 
 static bool goes_on(const struct run *run)

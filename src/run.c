@@ -165,9 +165,9 @@ static void write_report_line(struct run *run)
 {
     const struct history_totals *totals = &run->totals;
     fprintf(run->log, " Step=%6ld   T=%10.3E   DT=%10.3E   K.E.=%10.3E  T.E.=%10.3E\n", run->course.step, run->course.time,
-            run->course.time_step, totals->kinetic, totals->kinetic + totals->internal);
-    fprintf(run->log, "              Mx=%10.3E   My=%10.3E   Mz=%10.3E\n", totals->momentum[0], totals->momentum[1],
-            totals->momentum[2]);
+            run->course.time_step, totals->value[TOTAL_KINETIC], totals->value[TOTAL_KINETIC] + totals->value[TOTAL_INTERNAL]);
+    fprintf(run->log, "              Mx=%10.3E   My=%10.3E   Mz=%10.3E\n", totals->value[TOTAL_MOMENTUM_X],
+            totals->value[TOTAL_MOMENTUM_Y], totals->value[TOTAL_MOMENTUM_Z]);
 }
 
 /* What the files of a new run begin with. */

@@ -74,9 +74,9 @@ void summary_sph_end(const struct sph *sph, const struct timers *timers, double 
         print_heat(sph, stream);
     fprintf(stream, "%s after %ld steps at time %.6E: ", summary_ending(status), sph->step, sph->time);
     if (budget->removed > 0)
-        fprintf(stream, "%ld particles removed", budget->removed);
+        fprintf(stream, "%ld particles left the grid and are removed", budget->removed);
     else
-        fprintf(stream, "no particle removed");
+        fprintf(stream, "no particle lost");
     fprintf(stream, ", density within %.2g %% and %.2g %% of its reference\n", 100 * (budget->least_density_ratio - 1),
             100 * (budget->most_density_ratio - 1));
 }

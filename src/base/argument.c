@@ -24,6 +24,7 @@ static const struct limit limits[LIMIT_ROWS] = {
     [LIMIT_DIGITS] = {"from 2 to 17", 2, 17, false, false},
     [LIMIT_FRACTION] = {"from 0 to 1", 0, 1, false, false},
     [LIMIT_FLAG] = {"0 or 1", 0, 1, false, false},
+    [LIMIT_DIMENSION] = {"2 or 3", 2, 3, false, false},
 };
 
 int argument_count(const struct argument *arguments)

@@ -25,6 +25,7 @@ enum argument_limit {
     LIMIT_DIGITS,        /* 2 ... 17 */
     LIMIT_FRACTION,      /* 0 ... 1 */
     LIMIT_FLAG,          /* 0, 1 */
+    LIMIT_DIMENSION,     /* 2, 3 */
     LIMIT_ROWS
 };
 

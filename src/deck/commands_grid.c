@@ -44,22 +44,22 @@ const struct keyword grid_keywords[] = {
     {.name = "grid",
      .arguments = (const struct argument[]){LENGTH("x0"), LENGTH("x1"), LENGTH("y0"), LENGTH("y1"), LENGTH("z0"),
                                             LENGTH("z1"), {0}},
-     .field = offsetof(struct scene, grid), .apply = read_grid, .doc = "extents of the grid"},
+     .field = offsetof(struct scene, grid), .apply = read_grid, .doc = "extents of the grid; with meth sph of the room for particles"},
     {.name = "spx", .arguments = (const struct argument[]){LENGTH("x0"), LENGTH("x1"), {0}},
      .field = offsetof(struct scene, grid), .apply = read_span_x, .doc = "extent of the grid along x"},
     {.name = "spy", .arguments = (const struct argument[]){LENGTH("y0"), LENGTH("y1"), {0}},
      .field = offsetof(struct scene, grid[2]), .apply = read_span_y, .doc = "extent of the grid along y"},
     {.name = "spz", .arguments = (const struct argument[]){LENGTH("z0"), LENGTH("z1"), {0}},
      .field = offsetof(struct scene, grid[4]), .apply = read_span_z, .doc = "extent of the grid along z"},
-    {.name = "dcel", .long_name = "dcell",
+    {.name = "dcel", .methods = METHODS_MPM, .long_name = "dcell",
      .arguments = (const struct argument[]){{"size", "length", ARGUMENT_REAL, LIMIT_POSITIVE}, {0}},
      .field = offsetof(struct scene, cell_size), .apply = read_cell_size,
      .doc = "cell size; before mate, else the nodal mass cutoff is zero"},
-    {.name = "fixe", .long_name = "fixed",
+    {.name = "fixe", .methods = METHODS_MPM, .long_name = "fixed",
      .arguments = (const struct argument[]){CODE("x-"), CODE("x+"), CODE("y-"), CODE("y+"), CODE("z-"), CODE("z+"), {0}},
      .field = offsetof(struct scene, boundary),
      .doc = "boundary codes of the six faces: 0 free, 1 fixed, 2 normal component fixed"},
-    {.name = "fixn", .apply = reader_hold,
+    {.name = "fixn", .methods = METHODS_MPM, .apply = reader_hold,
      .doc = "holds grid nodes in a box along x, y, z (1 held, 0 free), or with `fixn cyli` in an annulus",
      .details = "fixn x0 x1 y0 y1 z0 z1 ix iy iz\nfixn cyli axis a b r0 r1 ix iy iz   (a b: the axis in the other two coordinates, in the "
                 "order x y z)\nBoth limits count in."},
@@ -118,11 +118,12 @@ static bool check_given(struct reader *reader, struct deck_place end)
 
 void reader_finish_grid(struct reader *reader, struct deck_place end)
 {
-    if (!reader_was_given(reader, "dcel"))
+    const bool has_cells = reader->scene->method == METHOD_MPM;
+    if (has_cells && !reader_was_given(reader, "dcel"))
         diagnostics_lack(reader->diagnostics, end, "the cell size is not given; expected 'dcel'");
     bool good = check_given(reader, end);
     for (int a = 0; a < 3; a++)
         good = check_span(reader, a) && good;
-    if (good && reader->cell_place.line > 0)
+    if (good && has_cells && reader->cell_place.line > 0)
         check_cells(reader);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Material model: the mate block, and later the equations of state. */
 #include "base/memory.h"
-#include "deck/reader.h"
+#include "deck/commands_sph.h"
 #include "material/eos.h"
 
 #include <math.h>
@@ -56,7 +56,7 @@ static bool prepare(struct reader *reader, const struct law *law, const struct d
     const char *wrong = law->prepare(material);
     if (wrong)
         diagnostics_error(reader->diagnostics, word->place, "law '%s': %s", law->name, wrong);
-    else if (!(isfinite(material->wave_speed) && material->wave_speed > 0))
+    else if (law->methods != METHODS_SPH && !(isfinite(material->wave_speed) && material->wave_speed > 0))
         diagnostics_error(reader->diagnostics, word->place, "law '%s': the wave speed that follows is %g", law->name,
                           material->wave_speed);
     else
@@ -242,12 +242,16 @@ const struct keyword material_keywords[] = {
     {.name = "mate", .long_name = "material", .apply = read_materials,
      .doc = "materials: id, law and its parameters, up to the highest id",
      .details = "mate\n  id law parameters...\nThe last id has to be nmat. The laws:"},
-    {.name = "seos",
+    {.name = "seos", .methods = METHODS_MPM,
      .arguments = (const struct argument[]){{"material", NULL, ARGUMENT_INTEGER, LIMIT_COUNT},
                                             {"type", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
      .apply = read_eos, .fail = fail_eos, .doc = "equation of state of a material; after its mate",
      .details = "seos material type constants...\nThe types:"},
-    {.name = "deto",
+    {.name = "prop", .methods = METHODS_SPH, .arguments = reader_property_arguments, .apply = reader_property,
+     .doc = "a property of a material as a table over the temperature, or what it melts and boils at; after its mate",
+     .details = "prop material name n T1 v1 ... Tn vn [extr]   (straight lines between; beyond it constant, or with extr along "
+                "its last line)\nprop material sahu|melt|boil ...\nThe names:"},
+    {.name = "deto", .methods = METHODS_MPM,
      .arguments = (const struct argument[]){{"x", "length", ARGUMENT_REAL, LIMIT_NONE},
                                             {"y", "length", ARGUMENT_REAL, LIMIT_NONE},
                                             {"z", "length", ARGUMENT_REAL, LIMIT_NONE}, {0}},
@@ -262,6 +266,11 @@ void reader_finish_materials(struct reader *reader)
         if (!entry->is_given)
             diagnostics_error(reader->diagnostics, reader->materials_place,
                               "material %zu of %ld is not given in 'mate'", i + 1, scene->materials_declared);
+        else if (!methods_include(entry->material.law->methods, scene->method))
+            diagnostics_error(reader->diagnostics, entry->place,
+                              scene->method == METHOD_SPH ? "law '%s' goes only with 'meth mpm'; with 'meth sph' take 'flui'"
+                                                          : "law '%s' goes only with 'meth sph'",
+                              entry->material.law->name);
         else if (entry->material.law->needs_eos && !entry->material.eos)
             diagnostics_error(reader->diagnostics, entry->place,
                               "law '%s' needs an equation of state; expected 'seos %zu ...'",

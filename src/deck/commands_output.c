@@ -45,12 +45,24 @@ static void read_tecplot(struct reader *reader, const struct deck_word *word, co
     reader->scene->writes_animation = true;
 }
 
+/* Notes a result that only some methods have; one that is a sum over all particles has no place beside particles. */
+static bool use_result(struct reader *reader, const struct result *result, const struct deck_word *word, bool is_curve)
+{
+    if (!is_curve && !result->value) {
+        diagnostics_error(reader->diagnostics, word->place, "'%s' is of all particles together: only for 'curv %s'", result->name,
+                          result->name);
+        return false;
+    }
+    reader_use(reader, "result ", result->name, is_curve ? result_curve_methods(result) : result->methods, word->place);
+    return true;
+}
+
 static void read_result(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     (void)word;
     struct scene *scene = reader->scene;
     const struct result *row = find_result(reader, &values[0].word);
-    if (!row)
+    if (!row || !use_result(reader, row, &values[0].word, false))
         return;
     scene->results = memory_grow(scene->results, &scene->results_capacity, scene->n_results + 1,
                                  sizeof *scene->results, "results");
@@ -82,7 +94,7 @@ static void read_curve(struct reader *reader, const struct deck_word *word, cons
             return;
     }
     curve.particle = id.integer - 1;
-    if (curve.result)
+    if (curve.result && use_result(reader, curve.result, &values[0].word, true))
         add_curve(reader->scene, curve);
 }
 
@@ -91,7 +103,9 @@ static void read_near_curve(struct reader *reader, const struct deck_word *word,
     struct scene_curve curve = {.result = find_result(reader, &values[0].word), .is_near = true, .place = word->place};
     for (int a = 0; a < 3; a++)
         curve.point[a] = values[1 + a].real;
-    if (reader_needs(reader, word, "dcel") && reader_needs(reader, word, "part") && curve.result)
+    const bool has_cells = reader->scene->method == METHOD_MPM;
+    if ((!has_cells || reader_needs(reader, word, "dcel")) && reader_needs(reader, word, "part") && curve.result
+        && use_result(reader, curve.result, &values[0].word, curve.result->value != NULL))
         add_curve(reader->scene, curve);
 }
 
@@ -184,7 +198,8 @@ const struct keyword output_keywords[] = {
      .doc = "adds a curve: a result of one particle (default 1), written every step",
      .details = "curv result [particle]     (the id on the same line)\nThe results:"},
     {.name = "curx", .arguments = (const struct argument[]){RESULT, LENGTH("x"), LENGTH("y"), LENGTH("z"), {0}},
-     .apply = read_near_curve, .doc = "adds a curve of the particle within a quarter cell of a point; after all part"},
+     .apply = read_near_curve, .doc = "adds a curve of the particle within a quarter cell of a point, with meth sph of the nearest one within half a "
+            "spacing; after meth and all part"},
     {.name = "name", .long_name = "names",
      .arguments = (const struct argument[]){{"job|mpm3d", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}}, .apply = read_names,
      .doc = "names of the energy and momentum files: job_energy.dat, or EnergyPlot.dat as in MPM3D-F90"},
@@ -196,7 +211,7 @@ const struct keyword output_keywords[] = {
     {.name = "digi", .long_name = "digits",
      .arguments = (const struct argument[]){{"digits", NULL, ARGUMENT_INTEGER, LIMIT_DIGITS}, {0}},
      .field = offsetof(struct scene, digits), .doc = "significant digits in the tables (7; MPM3D-F90 has 4)"},
-    {.name = "smoo", .apply = read_smoothing, .doc = "adds a smoothed pressure to the ParaView files"},
+    {.name = "smoo", .methods = METHODS_MPM, .apply = read_smoothing, .doc = "adds a smoothed pressure to the ParaView files"},
     {.name = "para", .long_name = "paraview", .apply = read_paraview,
      .doc = "write ParaView files job_anim_N.vtu and job_anim.pvd; `para ascii` or `para binary` (by size)"},
     {.name = "rest", .long_name = "restart", .apply = read_restart,

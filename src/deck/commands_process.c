@@ -15,19 +15,6 @@
 
 static const struct argument one_count[] = {COUNT("n"), {0}}, one_id[] = {COUNT("id"), {0}};
 
-/* Says what has to stand behind the last word of a command, and what stands there instead. */
-static void expect(struct reader *reader, const char *owner, const char *expected)
-{
-    struct deck_word word;
-    char shown[40];
-    if (reader_at_line_end(reader) || !text_peek(reader->text, &word))
-        diagnostics_error(reader->diagnostics, text_behind(&reader->last), "%s lacks its next word; expected %s", owner, expected);
-    else
-        diagnostics_error(reader->diagnostics, word.place, "expected %s behind %s, found '%s'", expected, owner,
-                          text_show(&word, shown, sizeof shown));
-    reader_skip_line(reader);
-}
-
 /* --- closed particles --- */
 
 /* GPD id value, or GPD id1 id2 value: a third number stands on the same line. */
@@ -71,7 +58,7 @@ void reader_ghosts(struct reader *reader, const struct deck_word *word, const st
         return;
     }
     if (reader_has_more(reader)) {
-        expect(reader, "Ghost", "'show', or lines 'GPD id value' and 'endG'");
+        reader_expect(reader, "Ghost", "'show', or lines 'GPD id value' and 'endG'");
         return;
     }
     building->has_ghosts = true;
@@ -86,7 +73,7 @@ static bool read_every(struct reader *reader, const char *owner, long *number)
     static const char *const every[] = {"every", NULL};
     struct value value[2];
     if (reader_optional(reader, every) < 0) {
-        expect(reader, owner, "'every n', the steps from one opening to the next");
+        reader_expect(reader, owner, "'every n', the steps from one opening to the next");
         return false;
     }
     if (!reader_values(reader, one_count, owner, value))
@@ -121,7 +108,7 @@ void reader_opening(struct reader *reader, const struct deck_word *word, const s
         building->open_place = word->place;
     }
     if (kind < 0) {
-        expect(reader, "open", "point, group, layer, all, settle or until");
+        reader_expect(reader, "open", "point, group, layer, all, settle or until");
     } else if (kind == 0 && read_every(reader, "open point", &building->interval)) {
         building->opening = OPENING_POINTS, building->group = 1;
     } else if (kind == 1 && reader_values(reader, one_count, "open group", value)
@@ -154,7 +141,7 @@ void reader_build(struct reader *reader, const struct deck_word *word, const str
     (void)values;
     building->build_place = word->place;
     if (axis < 0) {
-        expect(reader, "buil", "the build direction x, y or z");
+        reader_expect(reader, "buil", "the build direction x, y or z");
         return;
     }
     building->axis = axis;
@@ -178,7 +165,7 @@ void reader_scan(struct reader *reader, const struct deck_word *word, const stru
         building->is_serpentine = order == SCAN_RASTER && reader_optional(reader, serpentine) == 0;
     }
     if (order < 0 && !reader_has_more(reader)) {
-        expect(reader, "scan", "angles, deck or raster");
+        reader_expect(reader, "scan", "angles, deck or raster");
         return;
     }
     if (reader_has_more(reader))
@@ -246,7 +233,7 @@ void reader_heat(struct reader *reader, const struct deck_word *word, const stru
     static const char *const signs[] = {"heat", "cool", NULL};
     int sign = reader_optional(reader, signs);
     if (sign < 0 && reader_has_more(reader))
-        expect(reader, "ther", "heat or cool");
+        reader_expect(reader, "ther", "heat or cool");
     struct scene_transformation *entry = transformation_of(reader, word, &values[0]);
     if (!entry)
         return;
@@ -279,7 +266,7 @@ static void read_annulus(struct reader *reader, const struct deck_word *word)
     struct scene_hold hold = {.is_annulus = true, .axis = reader_optional(reader, axes), .place = word->place};
     struct value values[KEYWORD_ARGUMENTS];
     if (hold.axis < 0) {
-        expect(reader, "fixn cyli", "its axis x, y or z");
+        reader_expect(reader, "fixn cyli", "its axis x, y or z");
         return;
     }
     if (!reader_values(reader, arguments, "fixn cyli", values))
@@ -461,7 +448,7 @@ void reader_finish_process(struct reader *reader)
     check_scan(reader);
     check_mass_scale(reader);
     check_holds(reader);
-    if (scene->fixed_step > 0)
+    if (scene->fixed_step > 0 && scene->method == METHOD_MPM)
         check_fixed_step(reader);
     scale_masses(reader->scene);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Solving settings: time, schemes, stress rotation, viscosity, damping. */
-#include "deck/reader.h"
+#include "deck/commands_sph.h"
 
 #include <stddef.h>
 #include <strings.h>
@@ -238,33 +238,57 @@ static void note_light_mass(struct reader *reader, const struct deck_word *word,
     reader->light_mass_place = word->place;
 }
 
+static void note_method(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)values;
+    reader->method_place = word->place;
+}
+
+/* What belongs to a method that is not known can't be said to be wrong. */
+static void fail_method(struct reader *reader, const struct deck_word *word)
+{
+    (void)word;
+    reader->is_partial = true;
+}
+
+_Static_assert(sizeof(enum method_name) == sizeof(int), "choices are stored as int");
+static const char *const method_names[] = {[METHOD_MPM] = "mpm", [METHOD_SPH] = "sph", NULL};
+
 const struct keyword solving_keywords[] = {
+    {.name = "meth", .long_name = "method",
+     .arguments = (const struct argument[]){{"mpm|sph", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}},
+     .choice = &(const struct keyword_choice){method_names, offsetof(struct scene, method), false}, .apply = note_method, .fail = fail_method,
+     .doc = "material points on a grid (mpm, default), or smoothed particles that melt and flow (sph, see there)"},
+    {.name = "sph", .methods = METHODS_SPH, .apply = reader_sph, .once = true,
+     .doc = "block of what smoothed particles need, up to ends",
+     .details = "sph\n  word numbers ...\nends\nMaterials are `flui`, with `prop`; gravity is in load. Temperatures in kelvin, as radiation "
+                "and evaporation need them. The words:"},
     {.name = "endt", .long_name = "endtime",
      .arguments = (const struct argument[]){{"time", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
      .field = offsetof(struct scene, end_time), .apply = read_end_time,
      .doc = "end time; sets the output interval too, so outt has to follow it"},
-    {.name = "dtsc", .long_name = "dtscale",
+    {.name = "dtsc", .methods = METHODS_MPM, .long_name = "dtscale",
      .arguments = (const struct argument[]){{"factor", NULL, ARGUMENT_REAL, LIMIT_STEP_SCALE}, {0}},
      .field = offsetof(struct scene, step_scale), .doc = "time step as a fraction of the stable one (0.9)"},
-    {.name = "musl", .arguments = SWITCH, .apply = read_musl, .doc = "modified update stress last (default)"},
-    {.name = "usl", .arguments = SWITCH, .apply = read_usl, .doc = "update stress last"},
-    {.name = "usf", .arguments = SWITCH, .apply = read_usf, .doc = "update stress first"},
-    {.name = "jaum", .long_name = "jaumann",
+    {.name = "musl", .methods = METHODS_MPM, .arguments = SWITCH, .apply = read_musl, .doc = "modified update stress last (default)"},
+    {.name = "usl", .methods = METHODS_MPM, .arguments = SWITCH, .apply = read_usl, .doc = "update stress last"},
+    {.name = "usf", .methods = METHODS_MPM, .arguments = SWITCH, .apply = read_usf, .doc = "update stress first"},
+    {.name = "jaum", .methods = METHODS_MPM, .long_name = "jaumann",
      .arguments = (const struct argument[]){{"on|off|exact", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}},
      .apply = read_rotation,
      .doc = "rotation of the stress: on explicit (default), exact orthogonal (Hughes-Winget), off none"},
-    {.name = "bulk",
+    {.name = "bulk", .methods = METHODS_MPM,
      .arguments = (const struct argument[]){{"quadratic", NULL, ARGUMENT_REAL, LIMIT_NONE},
                                             {"linear", NULL, ARGUMENT_REAL, LIMIT_NONE}, {0}},
      .field = offsetof(struct scene, bulk), .doc = "artificial bulk viscosity (1.5 0.06)"},
-    {.name = "Damp",
+    {.name = "Damp", .methods = METHODS_MPM,
      .arguments = (const struct argument[]){{"rate", "1/time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
      .field = offsetof(struct scene, damping), .doc = "damping force -rate * mass * velocity on each particle"},
-    {.name = "ndam", .arguments = (const struct argument[]){{"factor", "force*time/length", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
+    {.name = "ndam", .methods = METHODS_MPM, .arguments = (const struct argument[]){{"factor", "force*time/length", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
      .apply = read_nodal_damping,
      .doc = "damping force -factor * velocity on each grid node, whatever its mass; stable for any factor; `ndam c1 c2`: c2 "
             "from the last opening on"},
-    {.name = "mscl", .arguments = (const struct argument[]){{"factor", NULL, ARGUMENT_REAL, LIMIT_POSITIVE}, {0}},
+    {.name = "mscl", .methods = METHODS_MPM, .arguments = (const struct argument[]){{"factor", NULL, ARGUMENT_REAL, LIMIT_POSITIVE}, {0}},
      .field = offsetof(struct scene, mass_scale), .apply = note_mass_scale,
      .doc = "all masses times a factor, for larger steps where inertia does not matter; weight stays (1)"},
     {.name = "dtfx", .arguments = (const struct argument[]){{"step", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
@@ -272,14 +296,14 @@ const struct keyword solving_keywords[] = {
     {.name = "dtmi", .arguments = (const struct argument[]){{"step", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
      .field = offsetof(struct scene, least_step),
      .doc = "the run is stopped as unstable when its time step falls below this one; 0: a millionth of the first one"},
-    {.name = "lite", .arguments = (const struct argument[]){{"share", NULL, ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
+    {.name = "lite", .methods = METHODS_MPM, .arguments = (const struct argument[]){{"share", NULL, ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
      .field = offsetof(struct scene, light_mass), .apply = note_light_mass,
      .doc = "for usl, unstable at nodes of small mass: nodes with less than this share of the mass of a full cell (of the "
             "lightest material) strain and move particles with less of their acceleration; momentum stays (0; 0.01 is a "
             "good one)"},
-    {.name = "drda", .apply = read_kinetic_damping,
+    {.name = "drda", .methods = METHODS_MPM, .apply = read_kinetic_damping,
      .doc = "kinetic damping: velocities are set to zero whenever the kinetic energy falls"},
-    {.name = "quas", .long_name = "quasistatic",
+    {.name = "quas", .methods = METHODS_MPM, .long_name = "quasistatic",
      .arguments = (const struct argument[]){{"tol", NULL, ARGUMENT_REAL, LIMIT_POSITIVE}, {0}}, .apply = read_equilibrium,
      .doc = "no time steps: the static equilibrium is found directly, with unbalanced forces of tol times those at the start "
             "(1e-6 is a good one); at most maxit Newton steps (`quas tol maxit`, 50), then kinetic damping. endt is not "
@@ -288,12 +312,12 @@ const struct keyword solving_keywords[] = {
                 "equilibrium of the run.\nRigid motions that nothing holds are taken out. Linear shapes only, with or without "
                 "bbar; laws with an equation of state, contact,\nTLmp, QuLo and velo do not go with it. Plastic flow follows "
                 "the way of the search, not that of a slow loading;\nwith kinetic damping it overshoots."},
-    {.name = "xfer", .long_name = "transfer",
+    {.name = "xfer", .methods = METHODS_MPM, .long_name = "transfer",
      .arguments = (const struct argument[]){{"flip|pic|apic|blend", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}},
      .apply = read_transfer,
      .doc = "velocities back to particles: their change (flip, default), the grid's (pic), the grid's with gradient "
             "(apic), or `xfer blend a` for a flip + (1 - a) pic"},
-    {.name = "bbar", .apply = read_averaging,
+    {.name = "bbar", .methods = METHODS_MPM, .apply = read_averaging,
      .doc = "volume change and pressure averaged over the cell, against volumetric locking of linear shapes"},
     {.name = "lost",
      .arguments = (const struct argument[]){{"keep|drop|stop", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}},
@@ -302,15 +326,15 @@ const struct keyword solving_keywords[] = {
             "the run (stop); with `write` behind it they are listed in job_lost.dat"},
     {.name = "sort", .arguments = SWITCH, .apply = read_sorting,
      .doc = "keep particles in cell order in memory (on); changes speed, never results"},
-    {.name = "gimp", .apply = read_gimp,
+    {.name = "gimp", .methods = METHODS_MPM, .apply = read_gimp,
      .doc = "generalised interpolation; particles half a cell wide, or with `gimp cp` as wide as they are"},
-    {.name = "bimp", .apply = read_bimp, .doc = "quadratic B-spline shape functions"},
-    {.name = "sgmp", .apply = read_staggered, .doc = "staggered grid: stress and strain at cell centres, against locking"},
-    {.name = "TLmp", .apply = read_total, .doc = "total Lagrangian formulation; neoh only, alone or with sgmp"},
-    {.name = "smal", .long_name = "small", .apply = read_small,
+    {.name = "bimp", .methods = METHODS_MPM, .apply = read_bimp, .doc = "quadratic B-spline shape functions"},
+    {.name = "sgmp", .methods = METHODS_MPM, .apply = read_staggered, .doc = "staggered grid: stress and strain at cell centres, against locking"},
+    {.name = "TLmp", .methods = METHODS_MPM, .apply = read_total, .doc = "total Lagrangian formulation; neoh only, alone or with sgmp"},
+    {.name = "smal", .methods = METHODS_MPM, .long_name = "small", .apply = read_small,
      .doc = "small displacements: forces and strains at the initial places, volumes stay; positions only show where particles are"},
-    {.name = "UVFp", .apply = read_deformation, .doc = "particle volume from the deformation gradient"},
-    {.name = "cont", .long_name = "contact",
+    {.name = "UVFp", .methods = METHODS_MPM, .apply = read_deformation, .doc = "particle volume from the deformation gradient"},
+    {.name = "cont", .methods = METHODS_MPM, .long_name = "contact",
      .arguments = (const struct argument[]){{"lagr|othe", NULL, ARGUMENT_WORD, LIMIT_NONE},
                                             {"friction", NULL, ARGUMENT_REAL, LIMIT_NOT_NEGATIVE},
                                             {"normal", NULL, ARGUMENT_INTEGER, LIMIT_NORMAL}, {0}},
@@ -418,6 +442,8 @@ void reader_finish_solving(struct reader *reader)
     if (scene->is_small)
         check_small(reader);
     check_light_mass(reader);
+    if (scene->method != METHOD_MPM)
+        return;
     warn_of_usl(reader);
     if (scene->finds_equilibrium)
         check_equilibrium(reader);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "deck/echo.h"
+#include "deck/echo_sph.h"
 #include "deck/keyword.h"
 #include "material/eos.h"
 #include "particles/solid.h"
@@ -23,7 +24,7 @@ static void print_number(FILE *stream, double value)
     fprintf(stream, " %s", text);
 }
 
-static void print_numbers(FILE *stream, const double *values, int count)
+void echo_numbers(FILE *stream, const double *values, int count)
 {
     for (int i = 0; i < count; i++)
         print_number(stream, values[i]);
@@ -32,7 +33,7 @@ static void print_numbers(FILE *stream, const double *values, int count)
 static void print_line(FILE *stream, const char *word, const double *values, int count)
 {
     fputs(word, stream);
-    print_numbers(stream, values, count);
+    echo_numbers(stream, values, count);
     fputc('\n', stream);
 }
 
@@ -42,6 +43,10 @@ static void echo_plain(const struct scene *scene, FILE *stream, enum category ca
     const struct keyword *table = keyword_table(category);
     for (const struct keyword *row = table; row->name; row++) {
         bool is_given = scene->given[category] >> (row - table) & 1;
+        if (!methods_include(row->methods, scene->method))
+            continue;
+        if (row->choice)
+            fprintf(stream, "%s %s%s\n", row->name, echo_choice(scene, row->choice), is_given ? "" : "   ! default");
         if (row->field == KEYWORD_NO_FIELD || strncmp(row->name, "sp", 2) == 0 || strcmp(row->name, "dcel") == 0)
             continue;
         const char *field = (const char *)scene + row->field;
@@ -57,23 +62,33 @@ static void echo_plain(const struct scene *scene, FILE *stream, enum category ca
     }
 }
 
+const char *echo_choice(const struct scene *scene, const struct keyword_choice *choice)
+{
+    const char *field = (const char *)scene + choice->field;
+    int index = 0;
+    bool is_on = false;
+    if (choice->is_flag)
+        memcpy(&is_on, field, sizeof is_on);
+    else
+        memcpy(&index, field, sizeof index); /* enums have the size of int */
+    return choice->names[choice->is_flag ? is_on : index];
+}
+
 static bool was_given(const struct scene *scene, enum category category, const char *name)
 {
     const struct keyword *table = keyword_table(category);
     return scene->given[category] >> (keyword_in(table, name) - table) & 1;
 }
 
-static void echo_solving(const struct scene *scene, FILE *stream)
+/* How the grid is gone through. */
+static void echo_scheme(const struct scene *scene, FILE *stream)
 {
     static const char *const schemes[] = {[SCHEME_USF] = "usf", [SCHEME_USL] = "usl", [SCHEME_MUSL] = "musl"};
     static const char *const rotations[] = {[ROTATION_OFF] = "off", [ROTATION_EXPLICIT] = "on", [ROTATION_EXACT] = "exact"};
-    echo_plain(scene, stream, CATEGORY_SOLVING);
     bool is_given = was_given(scene, CATEGORY_SOLVING, schemes[scene->scheme]);
     fprintf(stream, "%s on%s\n", schemes[scene->scheme], is_given ? "" : "   ! default");
     fprintf(stream, "jaum %s%s\n", rotations[scene->rotation],
             was_given(scene, CATEGORY_SOLVING, "jaum") ? "" : "   ! default");
-    fprintf(stream, "sort %s%s\n", scene->sorts ? "on" : "off",
-            was_given(scene, CATEGORY_SOLVING, "sort") ? "" : "   ! default");
     static const char *const interpolations[] = {[INTERPOLATION_LINEAR] = "", [INTERPOLATION_GIMP] = "gimp\n",
                                                  [INTERPOLATION_GIMP_OWN] = "gimp cp\n", [INTERPOLATION_BIMP] = "bimp\n",
                                                  [INTERPOLATION_STAGGERED] = "sgmp\n"};
@@ -84,6 +99,15 @@ static void echo_solving(const struct scene *scene, FILE *stream)
         print_number(stream, scene->contact_friction);
         fprintf(stream, " %ld%s\n", scene->contact_normal, scene->contact_joins ? " join" : "");
     }
+}
+
+static void echo_solving(const struct scene *scene, FILE *stream)
+{
+    echo_plain(scene, stream, CATEGORY_SOLVING);
+    if (scene->method == METHOD_MPM)
+        echo_scheme(scene, stream);
+    fprintf(stream, "sort %s%s\n", scene->sorts ? "on" : "off",
+            was_given(scene, CATEGORY_SOLVING, "sort") ? "" : "   ! default");
     if (scene->is_total)
         fprintf(stream, "TLmp\n");
     if (scene->tracks_deformation)
@@ -123,7 +147,7 @@ static void echo_materials(const struct scene *scene, FILE *stream)
     for (size_t i = 0; i < scene->n_materials; i++) {
         const struct material *material = &scene->materials[i].material;
         fprintf(stream, "  %zu %s", i + 1, material->law->name);
-        print_numbers(stream, material->parameter, argument_count(material->law->parameters));
+        echo_numbers(stream, material->parameter, argument_count(material->law->parameters));
         fprintf(stream, "\n");
     }
     for (size_t i = 0; i < scene->n_materials; i++) {
@@ -131,14 +155,16 @@ static void echo_materials(const struct scene *scene, FILE *stream)
         if (!material->eos)
             continue;
         fprintf(stream, "seos %zu %d", i + 1, material->eos->type);
-        print_numbers(stream, material->eos_number, argument_count(material->eos->arguments));
+        echo_numbers(stream, material->eos_number, argument_count(material->eos->arguments));
         fprintf(stream, "\n");
     }
     for (size_t i = 0; i < scene->n_detonations; i++) {
         fprintf(stream, "deto");
-        print_numbers(stream, scene->detonations[i].position, 3);
+        echo_numbers(stream, scene->detonations[i].position, 3);
         fprintf(stream, "\n");
     }
+    if (scene->method == METHOD_SPH)
+        echo_properties(scene, stream);
     if (scene->cutoff_cell_size != scene->cell_size) {
         fprintf(stream, "! the mass cutoff has the cell size that comes before mate, or is zero\n");
         print_line(stream, "dcel", &scene->cell_size, 1);
@@ -153,8 +179,8 @@ static void echo_points(const struct generator *generator, FILE *stream, long fi
             break;
         }
         fprintf(stream, "  %ld %d", first + i + 1, generator->material + 1);
-        print_numbers(stream, &generator->points[i].mass, 1);
-        print_numbers(stream, generator->points[i].position, 3);
+        echo_numbers(stream, &generator->points[i].mass, 1);
+        echo_numbers(stream, generator->points[i].position, 3);
         fprintf(stream, "\n");
     }
 }
@@ -184,7 +210,7 @@ static void echo_steps(const struct solid *solid, FILE *stream)
             fprintf(stream, " scale");
             print_number(stream, step->scale);
             fprintf(stream, " move");
-            print_numbers(stream, step->move, 3);
+            echo_numbers(stream, step->move, 3);
         }
         fprintf(stream, "\n");
     }
@@ -200,7 +226,7 @@ static void echo_bodies(const struct scene *scene, FILE *stream, bool whole)
                     && (b == 0 || memcmp(body->plot_box, scene->bodies[b - 1].plot_box, sizeof body->plot_box) != 0);
         if (new_box) {
             fprintf(stream, "pt2d");
-            print_numbers(stream, body->plot_box, 6);
+            echo_numbers(stream, body->plot_box, 6);
             fprintf(stream, "\n");
         }
         fprintf(stream, "part %s %d", generator->row->name, body->component + 1);
@@ -210,7 +236,7 @@ static void echo_bodies(const struct scene *scene, FILE *stream, bool whole)
             continue;
         }
         fprintf(stream, "\n  %d", generator->material + 1);
-        print_numbers(stream, (double[]){generator->density, generator->spacing}, 2);
+        echo_numbers(stream, (double[]){generator->density, generator->spacing}, 2);
         for (int i = 3; i < argument_count(generator->row->arguments); i++) {
             bool is_axis = generator->row->arguments[i].kind == ARGUMENT_WORD;
             print_number(stream, generator->number[i - 3] + is_axis);
@@ -238,10 +264,10 @@ static void echo_loads(const struct scene *scene, FILE *stream, bool whole)
         if (load->kind == LOAD_FACE)
             fprintf(stream, " %s", face_names[2 * load->axis + (load->side > 0)]);
         if (load->kind == LOAD_BOX)
-            print_numbers(stream, load->box, 6);
+            echo_numbers(stream, load->box, 6);
         else
             fprintf(stream, " %ld", load->target + 1);
-        print_numbers(stream, load->value, 3);
+        echo_numbers(stream, load->value, 3);
         fprintf(stream, "\n");
     }
     fprintf(stream, "endl\n");
@@ -264,7 +290,7 @@ static void echo_velocities(const struct scene *scene, FILE *stream, bool whole)
         fprintf(stream, "  %s", kinds[velocity->kind]);
         if (!is_field)
             fprintf(stream, " %ld", velocity->target + 1);
-        print_numbers(stream, velocity->value, is_field ? 1 : 3);
+        echo_numbers(stream, velocity->value, is_field ? 1 : 3);
         fprintf(stream, velocity->kind == VELOCITY_ROWS ? " 1\n" : "\n");
     }
     fprintf(stream, "endv\n");
@@ -285,14 +311,14 @@ static void echo_output(const struct scene *scene, FILE *stream)
     if (scene->restart_steps > 0)
         fprintf(stream, "rest every %ld steps\n", scene->restart_steps);
     else if (scene->restart_interval > 0)
-        fputs("rest every", stream), print_numbers(stream, &scene->restart_interval, 1), fputs(" time\n", stream);
+        fputs("rest every", stream), echo_numbers(stream, &scene->restart_interval, 1), fputs(" time\n", stream);
     for (size_t i = 0; i < scene->n_results; i++)
         fprintf(stream, "outr %s\n", scene->results[i]->name);
     for (size_t i = 0; i < scene->n_curves; i++) {
         const struct scene_curve *curve = &scene->curves[i];
         fprintf(stream, "%s %s", curve->is_near ? "curx" : "curv", curve->result->name);
         if (curve->is_near)
-            print_numbers(stream, curve->point, 3);
+            echo_numbers(stream, curve->point, 3);
         else
             fprintf(stream, " %ld", curve->particle + 1);
         fprintf(stream, curve->is_near ? "   ! particle %ld\n" : "\n", curve->particle + 1);
@@ -325,12 +351,12 @@ static void echo_building(const struct scene *scene, FILE *stream)
         fprintf(stream, "open until %ld\n", building->until + 1);
     if (building->axis != 2 || building->thickness > 0) {
         fprintf(stream, "buil %c", "xyz"[building->axis]);
-        print_numbers(stream, &building->thickness, building->thickness > 0);
+        echo_numbers(stream, &building->thickness, building->thickness > 0);
         fprintf(stream, "\n");
     }
     if (building->order == SCAN_RASTER || building->n_angles > 0) {
         fprintf(stream, "scan %s%s", building->order == SCAN_RASTER ? "raster" : "deck", building->is_serpentine ? " serpentine" : "");
-        print_numbers(stream, building->angles, (int)building->n_angles);
+        echo_numbers(stream, building->angles, (int)building->n_angles);
         fprintf(stream, "\n");
     }
 }
@@ -346,7 +372,7 @@ static void echo_transformations(const struct scene *scene, FILE *stream)
             fprintf(stream, "phas %d", number), print_line(stream, "", t->phase_densities, 2);
         if (t->has_heat) {
             fprintf(stream, "ther %d", number);
-            print_numbers(stream, (double[]){t->expansion, t->temperature, t->radius}, 3);
+            echo_numbers(stream, (double[]){t->expansion, t->temperature, t->radius}, 3);
             fprintf(stream, " %s\n", t->cools ? "cool" : "heat");
         }
     }
@@ -359,10 +385,10 @@ static void echo_holds(const struct scene *scene, FILE *stream)
         fprintf(stream, "fixn");
         if (hold->is_annulus) {
             fprintf(stream, " cyli %c", "xyz"[hold->axis]);
-            print_numbers(stream, hold->centre, 2);
-            print_numbers(stream, hold->radius, 2);
+            echo_numbers(stream, hold->centre, 2);
+            echo_numbers(stream, hold->radius, 2);
         } else {
-            print_numbers(stream, hold->box, 6);
+            echo_numbers(stream, hold->box, 6);
         }
         fprintf(stream, " %d %d %d\n", hold->holds[0], hold->holds[1], hold->holds[2]);
     }
@@ -379,6 +405,8 @@ void echo_scene(const struct scene *scene, FILE *stream, bool whole)
     echo_bodies(scene, stream, whole);
     echo_building(scene, stream);
     echo_transformations(scene, stream);
+    if (scene->method == METHOD_SPH)
+        echo_sph(scene, stream);
     echo_loads(scene, stream, whole);
     echo_velocities(scene, stream, whole);
     echo_output(scene, stream);

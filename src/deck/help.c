@@ -3,6 +3,7 @@
 #include "deck/keyword.h"
 #include "material/eos.h"
 #include "material/law.h"
+#include "material/properties.h"
 #include "particles/generate.h"
 #include "particles/results.h"
 #include "particles/solid.h"
@@ -28,9 +29,15 @@ static void print_argument_table(FILE *stream, const struct argument *arguments)
     }
 }
 
-static void print_line(FILE *stream, const char *name, const char *doc, const char *later)
+/* What the doc of a row ends with that not all methods have. */
+static const char *method_note(unsigned methods)
 {
-    fprintf(stream, "  %-5s %s%s\n", name, doc, later ? " (not in this version)" : "");
+    return methods == METHODS_MPM ? " [mpm]" : methods == METHODS_SPH ? " [sph]" : "";
+}
+
+static void print_line(FILE *stream, const char *name, const char *doc, const char *later, unsigned methods)
+{
+    fprintf(stream, "  %-5s %s%s%s\n", name, doc, method_note(methods), later ? " (not in this version)" : "");
 }
 
 void help_words(FILE *stream)
@@ -38,15 +45,15 @@ void help_words(FILE *stream)
     for (int c = 0; c < CATEGORY_COUNT; c++) {
         fprintf(stream, "\n%s\n", keyword_category_title((enum category)c));
         for (const struct keyword *row = keyword_table((enum category)c); row->name; row++)
-            print_line(stream, row->name, row->doc, row->later);
+            print_line(stream, row->name, row->doc, row->later, row->methods);
     }
-    fprintf(stream, "\nmpm3d --help WORD tells more of a word, law, generator or result.\n");
+    fprintf(stream, "\n[mpm] and [sph] are words of that `meth` alone. mpm3d --help WORD tells more of a word, law, generator or result.\n");
 }
 
 static void print_laws(FILE *stream)
 {
     for (const struct law *const *law = law_rows(); *law; law++)
-        print_line(stream, (*law)->name, (*law)->doc, (*law)->later);
+        print_line(stream, (*law)->name, (*law)->doc, (*law)->later, (*law)->methods);
 }
 
 static void print_equations(FILE *stream)
@@ -63,7 +70,14 @@ static void print_generators(FILE *stream)
     int count;
     const struct generator_row *rows = generator_rows(&count);
     for (int i = 0; i < count; i++)
-        print_line(stream, rows[i].name, rows[i].doc, NULL);
+        print_line(stream, rows[i].name, rows[i].doc, NULL, 0);
+}
+
+/* Those in which a particle or a curve has it. */
+static unsigned methods_of_result(const struct result *result)
+{
+    const unsigned curve = result_curve_methods(result);
+    return !result->value ? curve : curve == 0 ? 0 : result->methods | curve;
 }
 
 static void print_results(FILE *stream)
@@ -71,13 +85,13 @@ static void print_results(FILE *stream)
     int count;
     const struct result *rows = result_rows(&count);
     for (int i = 0; i < count; i++)
-        print_line(stream, rows[i].name, rows[i].doc, rows[i].later);
+        print_line(stream, rows[i].name, rows[i].doc, rows[i].later, methods_of_result(&rows[i]));
 }
 
 static void print_table(FILE *stream, const struct keyword *table)
 {
     for (const struct keyword *row = table; row->name; row++) {
-        print_line(stream, row->name, row->doc, row->later);
+        print_line(stream, row->name, row->doc, row->later, row->methods);
         fprintf(stream, "        %s", row->name);
         print_arguments(stream, row->arguments);
         fprintf(stream, "\n");
@@ -101,7 +115,7 @@ static void print_shapes(FILE *stream)
     print_table(stream, solid_keywords);
     fprintf(stream, "Shapes:\n");
     for (int i = 0; i < count; i++) {
-        print_line(stream, rows[i].name, rows[i].doc, NULL);
+        print_line(stream, rows[i].name, rows[i].doc, NULL, 0);
         fprintf(stream, "        %s", rows[i].name);
         print_arguments(stream, rows[i].arguments);
         fprintf(stream, "\n");
@@ -109,6 +123,16 @@ static void print_shapes(FILE *stream)
     fprintf(stream, "Behind the file of stl:\n");
     print_table(stream, surface_keywords);
     fprintf(stream, "\n%s", solid_rules);
+}
+
+static void print_properties(FILE *stream)
+{
+    for (int i = 0; i < PROPERTY_COUNT; i++) {
+        const struct property_row *row = property_row((enum property)i);
+        print_line(stream, row->name, row->doc, NULL, 0);
+        fprintf(stream, "        %s n T1 v1 ... Tn vn%s%s\n", row->name, row->unit ? "   " : "", row->unit ? row->unit : "");
+    }
+    print_table(stream, property_keywords);
 }
 
 /* What belongs below a word: the rows that may stand in its block. */
@@ -126,6 +150,10 @@ static void print_below(FILE *stream, const char *name)
         print_table(stream, velocity_keywords);
     else if (strcmp(name, "Ghos") == 0)
         print_table(stream, ghost_keywords);
+    else if (strcmp(name, "sph") == 0)
+        print_table(stream, sph_keywords);
+    else if (strcmp(name, "prop") == 0)
+        print_properties(stream);
     else if (strcmp(name, "outr") == 0 || strcmp(name, "curv") == 0)
         print_results(stream);
 }
@@ -140,6 +168,8 @@ static bool help_keyword(const char *word, FILE *stream)
     print_arguments(stream, row->arguments);
     fprintf(stream, "\n    %s%s\n    category: %s\n", row->doc, row->later ? " (not in this version)" : "",
             keyword_category_title(category));
+    if (row->methods)
+        fprintf(stream, "    only with meth %s\n", row->methods == METHODS_MPM ? "mpm" : "sph");
     print_argument_table(stream, row->arguments);
     if (row->details)
         fprintf(stream, "%s\n", row->details);
@@ -155,7 +185,7 @@ static bool help_other(const char *word, FILE *stream)
     if (law) {
         fprintf(stream, "law %s", law->name);
         print_arguments(stream, law->parameters);
-        fprintf(stream, "\n    %s%s\n", law->doc, law->later ? " (not in this version)" : "");
+        fprintf(stream, "\n    %s%s%s\n", law->doc, method_note(law->methods), law->later ? " (not in this version)" : "");
         print_argument_table(stream, law->parameters);
     }
     if (generator) {
@@ -167,8 +197,8 @@ static bool help_other(const char *word, FILE *stream)
             print_shapes(stream);
     }
     if (result)
-        fprintf(stream, "result %s\n    %s%s%s%s\n", result->name, result->doc, result->unit ? ", " : "",
-                result->unit ? result->unit : "", result->later ? " (not in this version)" : "");
+        fprintf(stream, "result %s\n    %s%s%s%s%s\n", result->name, result->doc, result->unit ? ", " : "",
+                result->unit ? result->unit : "", method_note(methods_of_result(result)), result->later ? " (not in this version)" : "");
     return law || generator || result;
 }
 
@@ -202,9 +232,13 @@ static void manual_head(FILE *stream, const char *title)
     fprintf(stream, "\n### %s\n\n| word | what | arguments |\n|---|---|---|\n", title);
 }
 
-static void manual_row(FILE *stream, const char *name, const char *doc, const struct argument *arguments, const char *later)
+static void manual_row(FILE *stream, const char *name, const char *doc, const struct argument *arguments, const char *later,
+                       unsigned methods)
 {
-    fprintf(stream, "| `%s` | %s%s | ", name, doc, later ? " (not in this version)" : "");
+    fprintf(stream, "| `%s` | ", name);
+    for (const char *c = doc; *c; c++) /* a bar in a text would end its column */
+        fprintf(stream, *c == '|' ? "\\|" : "%c", *c);
+    fprintf(stream, "%s%s | ", method_note(methods), later ? " (not in this version)" : "");
     manual_arguments(stream, arguments);
     fprintf(stream, " |\n");
 }
@@ -213,7 +247,19 @@ static void manual_keywords(FILE *stream, const char *title, const struct keywor
 {
     manual_head(stream, title);
     for (const struct keyword *row = table; row->name; row++)
-        manual_row(stream, row->name, row->doc, row->arguments, row->later);
+        manual_row(stream, row->name, row->doc, row->arguments, row->later, row->methods);
+}
+
+static void manual_properties(FILE *stream)
+{
+    fprintf(stream, "\n### Names of prop\n\n| word | what | numbers |\n|---|---|---|\n");
+    for (int i = 0; i < PROPERTY_COUNT; i++) {
+        const struct property_row *row = property_row((enum property)i);
+        fprintf(stream, "| `%s` | %s%s%s | `n` rows of temperature and value; `extr` behind them: beyond the last row along the last line |\n",
+                row->name, row->doc, row->unit ? ", " : "", row->unit ? row->unit : "");
+    }
+    for (const struct keyword *row = property_keywords; row->name; row++)
+        manual_row(stream, row->name, row->doc, row->arguments, row->later, row->methods);
 }
 
 void help_manual(FILE *stream)
@@ -221,15 +267,18 @@ void help_manual(FILE *stream)
     int count;
     fprintf(stream, "# The words of a deck\n\nWritten by `make manual` from the program's own tables; `mpm3d --help WORD` "
                     "shows the same.\nFour letters count, in any case; numbers may be written 1, .5, +1, 1.0d-3; words are "
-                    "separated by blanks or one comma; `!` starts a comment.\n");
+                    "separated by blanks or one comma; `!` starts a comment.\n"
+                    "[mpm] and [sph] are words of that `meth` alone.\n");
     for (int c = 0; c < CATEGORY_COUNT; c++)
         manual_keywords(stream, keyword_category_title((enum category)c), keyword_table((enum category)c));
     manual_keywords(stream, "Kinds of load", load_keywords);
     manual_keywords(stream, "Kinds of velo", velocity_keywords);
     manual_keywords(stream, "Words of Ghost", ghost_keywords);
+    manual_keywords(stream, "Words of sph, up to ends", sph_keywords);
+    manual_properties(stream);
     manual_head(stream, "Laws of mate");
     for (const struct law *const *law = law_rows(); *law; law++)
-        manual_row(stream, (*law)->name, (*law)->doc, (*law)->parameters, (*law)->later);
+        manual_row(stream, (*law)->name, (*law)->doc, (*law)->parameters, (*law)->later, (*law)->methods);
     manual_head(stream, "Types of seos");
     for (const struct eos *eos = eos_rows(); eos->type; eos++) {
         fprintf(stream, "| `%d` | %s: %s | ", eos->type, eos->name, eos->doc);
@@ -239,17 +288,17 @@ void help_manual(FILE *stream)
     manual_head(stream, "Generators of part");
     const struct generator_row *generators = generator_rows(&count);
     for (int i = 0; i < count; i++)
-        manual_row(stream, generators[i].name, generators[i].doc, generators[i].arguments, NULL);
+        manual_row(stream, generators[i].name, generators[i].doc, generators[i].arguments, NULL, 0);
     manual_keywords(stream, "Steps of part solid, up to endp", solid_keywords);
     manual_head(stream, "Shapes of part solid");
     const struct solid_shape *shapes = solid_shapes(&count);
     for (int i = 0; i < count; i++)
-        manual_row(stream, shapes[i].name, shapes[i].doc, shapes[i].arguments, NULL);
+        manual_row(stream, shapes[i].name, shapes[i].doc, shapes[i].arguments, NULL, 0);
     manual_keywords(stream, "Words behind the file of stl", surface_keywords);
     fprintf(stream, "\n%s", solid_rules);
     fprintf(stream, "\n### Results of outr, curv, curx\n\n| word | what | unit |\n|---|---|---|\n");
     const struct result *results = result_rows(&count);
     for (int i = 0; i < count; i++)
-        fprintf(stream, "| `%s` | %s%s | %s |\n", results[i].name, results[i].doc,
+        fprintf(stream, "| `%s` | %s%s%s | %s |\n", results[i].name, results[i].doc, method_note(methods_of_result(&results[i])),
                 results[i].later ? " (not in this version)" : "", results[i].unit ? results[i].unit : "");
 }

@@ -5,6 +5,7 @@
 #define DECK_KEYWORD_H
 
 #include "base/argument.h"
+#include "base/methods.h"
 #include "deck/text.h"
 
 struct reader;
@@ -30,6 +31,14 @@ struct value {
 
 enum { KEYWORD_NO_FIELD = 0, KEYWORD_ARGUMENTS = 16 };
 
+/* What a word with one argument may have as it, and where in struct scene the place of it among the names goes: an enum,
+ * or, for off and on, a bool. */
+struct keyword_choice {
+    const char *const *names; /* ended by NULL; four characters count */
+    size_t field;
+    bool is_flag;
+};
+
 struct keyword {
     const char *name;      /* four characters count; shorter names must be written exactly */
     const char *long_name; /* the usual longer spelling; NULL: the name */
@@ -37,6 +46,8 @@ struct keyword {
     /* Offset in struct scene of the first of as many consecutive doubles (or longs, for integers)
      * as there are arguments, to store them; KEYWORD_NO_FIELD: only `apply` is called. */
     size_t field;
+    const struct keyword_choice *choice; /* or NULL */
+    unsigned methods; /* METHODS_... in which it has a meaning; 0: all */
     /* Called after the arguments are read and stored; may be NULL. */
     void (*apply)(struct reader *reader, const struct deck_word *word, const struct value *values);
     /* Called instead of `apply` after wrong arguments, which are reported; may be NULL. */
@@ -56,6 +67,9 @@ extern const struct keyword load_keywords[], velocity_keywords[], ghost_keywords
 
 /* The steps of part solid, and the words that may follow a shape from a file. */
 extern const struct keyword solid_keywords[], surface_keywords[];
+
+/* The block of sph, and what prop may say of a material beside tables. */
+extern const struct keyword sph_keywords[], property_keywords[];
 
 /* The row in `table` whose first four characters agree with a NUL-ended word, or NULL. */
 const struct keyword *keyword_in(const struct keyword *table, const char *word);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "deck/reader.h"
+#include "base/memory.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -128,7 +129,7 @@ bool reader_word(struct reader *reader, struct deck_word *word, const char *what
 /* The block that a word ends, or NULL. */
 static const char *block_of_end(const char *word)
 {
-    static const char *const ends[][2] = {{"endl", "load"}, {"endv", "velo"}, {"endp", "part solid"}, {"endg", "Ghost"}};
+    static const char *const ends[][2] = {{"endl", "load"}, {"endv", "velo"}, {"endp", "part solid"}, {"endg", "Ghost"}, {"ends", "sph"}};
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++)
         if (strncasecmp(word, ends[i][0], 4) == 0)
             return ends[i][1];
@@ -140,7 +141,8 @@ bool reader_is_keyword(const struct deck_word *word)
     char text[SHOWN];
     text_copy(word, text, sizeof text);
     return keyword_find(text, NULL) || keyword_in(load_keywords, text) || keyword_in(velocity_keywords, text)
-        || keyword_in(solid_keywords, text) || keyword_in(ghost_keywords, text) || block_of_end(text);
+        || keyword_in(solid_keywords, text) || keyword_in(ghost_keywords, text)
+        || keyword_in(sph_keywords, text) || block_of_end(text);
 }
 
 bool reader_has_more(struct reader *reader)
@@ -323,7 +325,79 @@ int reader_optional(struct reader *reader, const char *const *names)
     return -1;
 }
 
+void reader_expect(struct reader *reader, const char *owner, const char *expected)
+{
+    struct deck_word word;
+    char shown[SHOWN];
+    if (reader_at_line_end(reader) || !text_peek(reader->text, &word))
+        diagnostics_error(reader->diagnostics, text_behind(&reader->last), "%s lacks its next word; expected %s", owner, expected);
+    else
+        diagnostics_error(reader->diagnostics, word.place, "expected %s behind %s, found '%s'", expected, owner,
+                          text_show(&word, shown, sizeof shown));
+    reader_skip_line(reader);
+}
+
+/* --- methods --- */
+
+void reader_use(struct reader *reader, const char *kind, const char *name, unsigned methods, struct deck_place place)
+{
+    if (methods == 0)
+        return;
+    for (size_t i = 0; i < reader->n_uses; i++)
+        if (reader->uses[i].name == name && reader->uses[i].methods == methods)
+            return;
+    reader->uses = memory_grow(reader->uses, &reader->uses_capacity, reader->n_uses + 1, sizeof *reader->uses, "words");
+    reader->uses[reader->n_uses++] = (struct reader_use){kind, name, methods, place};
+}
+
+/* Words that the deck's method does not have: said where they stand, as nothing is left out silently. False where the
+ * deck has no `meth` and should: what else is wrong follows from that. */
+static bool check_methods(struct reader *reader)
+{
+    const enum method_name method = reader->scene->method, other = method == METHOD_MPM ? METHOD_SPH : METHOD_MPM;
+    static const char *const names[] = {[METHOD_MPM] = "mpm", [METHOD_SPH] = "sph"};
+    for (size_t i = 0; i < reader->n_uses; i++) {
+        const struct reader_use *use = &reader->uses[i];
+        if (methods_include(use->methods, method))
+            continue;
+        if (reader->method_place.line == 0) {
+            diagnostics_error(reader->diagnostics, use->place, "%s'%s' needs 'meth %s'", use->kind, use->name, names[other]);
+            return false;
+        }
+        diagnostics_error(reader->diagnostics, use->place, "%s'%s' goes only with 'meth %s'; this deck has 'meth %s'", use->kind,
+                          use->name, names[other], names[method]);
+    }
+    return true;
+}
+
 /* --- commands --- */
+
+/* Stores which of the names of a choice stands as the argument; false, after an error, where none does. */
+static bool choose(struct reader *reader, const struct keyword *row, const struct value *value)
+{
+    const struct keyword_choice *choice = row->choice;
+    char *field = (char *)reader->scene + choice->field;
+    char word[SHOWN], expected[120] = "";
+    int count = 0;
+    text_copy(&value->word, word, sizeof word);
+    for (; choice->names[count]; count++) {
+        const bool is_on = count == 1;
+        if (strncasecmp(word, choice->names[count], 4) == 0) {
+            if (choice->is_flag)
+                memcpy(field, &is_on, sizeof is_on);
+            else
+                memcpy(field, &count, sizeof count); /* enums have the size of int */
+            return true;
+        }
+    }
+    for (int i = 0; i < count; i++) {
+        const size_t length = strlen(expected);
+        snprintf(expected + length, sizeof expected - length, "%s%s", i == 0 ? "" : i + 1 < count ? ", " : " or ", choice->names[i]);
+    }
+    diagnostics_error(reader->diagnostics, value->word.place, "%s must be %s, not '%s'", row->name, expected,
+                      text_show(&value->word, word, sizeof word));
+    return false;
+}
 
 static void store_values(struct scene *scene, const struct keyword *row, const struct value *values)
 {
@@ -339,13 +413,14 @@ static void store_values(struct scene *scene, const struct keyword *row, const s
 static void run_command(struct reader *reader, const struct keyword *row, const struct deck_word *word)
 {
     struct value values[KEYWORD_ARGUMENTS];
+    reader_use(reader, "", row->name, row->methods, word->place);
     if (row->later) {
         diagnostics_error(reader->diagnostics, word->place, "'%s' is not available in this version: %s", row->name,
                           row->later);
         reader_skip_numbers(reader);
         return;
     }
-    if (!reader_values(reader, row->arguments, row->name, values)) {
+    if (!reader_values(reader, row->arguments, row->name, values) || (row->choice && !choose(reader, row, &values[0]))) {
         if (row->fail)
             row->fail(reader, word);
         return;
@@ -492,6 +567,8 @@ void reader_block(struct reader *reader, const struct keyword *table, const char
             continue;
         }
         take(reader, &word);
+        if (row && table == sph_keywords)
+            reader->sph_places[row - sph_keywords] = word.place;
         if (strncasecmp(text, end, 4) == 0)
             is_closed = true;
         else if (row)
@@ -560,11 +637,15 @@ static void finish(struct reader *reader)
         diagnostics_error(reader->diagnostics, text_behind(&reader->last), "the deck ends without 'endi'");
         return;
     }
+    if (!check_methods(reader))
+        return;
     reader_finish_grid(reader, end);
     reader_finish_materials(reader);
     reader_finish_targets(reader);
     reader_finish_solving(reader);
     reader_finish_process(reader);
+    if (reader->scene->method == METHOD_SPH)
+        reader_finish_sph(reader);
     reader_finish_general(reader, end);
 }
 
@@ -582,5 +663,6 @@ struct scene *reader_read(struct deck_text *text, struct diagnostics *diagnostic
             unknown_command(&reader, &word, name);
     }
     finish(&reader);
+    memory_free(reader.uses);
     return reader.scene;
 }

@@ -13,6 +13,15 @@ enum { READER_DEPTH = 4 }; /* of blocks in blocks, which only wrong decks have *
 
 struct solid;
 
+enum { READER_WORDS = 40 }; /* of the block sph, at most */
+
+/* A word or result that not all methods have, where it first stands. */
+struct reader_use {
+    const char *kind, *name;
+    unsigned methods;
+    struct deck_place place;
+};
+
 /* The block of part solid that is being read. */
 struct reader_solid {
     bool is_open;
@@ -31,13 +40,16 @@ struct reader {
     bool is_cut;                   /* the deck ended inside a command: what else is missing is no news */
     bool is_partial;               /* a line or file was not understood: what seems missing may be there */
     bool in_materials;             /* a number before the name of a law is the next material's id */
-    bool has_bad_material, has_bad_part;
+    bool has_bad_material, has_bad_part, has_bad_sph;
     bool has_scheme;               /* some scheme was switched on at some place */
     bool scheme_is_on[3];          /* by enum scheme */
     bool has_output_interval;
     struct reader_solid block;
     bool has_plot_box;             /* pt2d was read: it holds for bodies that follow */
     double plot_box[6];
+    struct reader_use *uses;
+    size_t n_uses, uses_capacity;
+    struct deck_place method_place, sph_places[READER_WORDS]; /* by row of sph_keywords; line 0: not given */
     uint64_t missing[CATEGORY_COUNT]; /* words reported as missing, like scene.given */
     struct deck_place output_interval_place, bodies_place, particles_place, materials_place;
     struct deck_place cell_place, contact_place, interpolation_place, total_place, transfer_place, averaging_place, equilibrium_place, small_place, span_place[3];
@@ -55,6 +67,9 @@ bool reader_word(struct reader *reader, struct deck_word *word, const char *what
  * the rest of the line up to the next keyword and returns false. `owner` names the word in
  * messages. */
 bool reader_values(struct reader *reader, const struct argument *arguments, const char *owner, struct value *values);
+
+/* Notes that a word of a kind ("" for keywords) was used that only some methods have. */
+void reader_use(struct reader *reader, const char *kind, const char *name, unsigned methods, struct deck_place place);
 
 /* Takes words up to, not including, the next one that begins a line. */
 void reader_skip_line(struct reader *reader);
@@ -107,6 +122,9 @@ int reader_switch(struct reader *reader, const struct value *value, const char *
  * index or -1. */
 int reader_optional(struct reader *reader, const char *const *names);
 
+/* Says what has to stand behind the last word of a command, and what stands there instead. Takes the rest of the line. */
+void reader_expect(struct reader *reader, const char *owner, const char *expected);
+
 /* An axis as x, y, z or 1, 2, 3: 0, 1, 2; -1 and an error otherwise. */
 int reader_axis(struct reader *reader, const struct value *value);
 
@@ -118,6 +136,7 @@ bool reader_solid_block(struct reader *reader, struct solid *solid);
 void reader_skip_solid(struct reader *reader);
 
 /* Checks that need the whole deck (categories' own files). */
+void reader_finish_sph(struct reader *reader);
 void reader_finish_general(struct reader *reader, struct deck_place end);
 void reader_finish_grid(struct reader *reader, struct deck_place end);
 void reader_finish_materials(struct reader *reader);

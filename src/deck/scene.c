@@ -18,6 +18,8 @@ struct scene *scene_open(void)
     scene->settling[1] = 0;
     scene->mass_scale = 1;
     scene->building = (struct scene_building){.settling = -1, .until = -1, .axis = 2};
+    scene->sph = (struct scene_sph){.dimension = 3, .smoothing = 1.2, .wide_smoothing = 1.8, .density_diffusion = 0.1,
+                                    .corrects_depth = true, .surface_threshold = 0.1, .melt_sound_factor = 1, .seed = 1};
     return scene;
 }
 
@@ -27,6 +29,8 @@ void scene_close(struct scene *scene)
         return;
     for (size_t b = 0; b < scene->n_bodies; b++)
         generator_close(&scene->bodies[b].generator);
+    for (size_t i = 0; i < scene->n_materials; i++)
+        properties_close(&scene->materials[i].properties);
     memory_free(scene->title);
     memory_free(scene->job);
     memory_free(scene->materials);
@@ -39,5 +43,10 @@ void scene_close(struct scene *scene)
     memory_free(scene->building.ghosts);
     memory_free(scene->building.angles);
     memory_free(scene->holds);
+    memory_free(scene->sph.beam.pieces);
+    memory_free(scene->sph.walls);
+    memory_free(scene->sph.temperatures);
+    memory_free(scene->sph.swellings);
+    memory_free(scene->sph.stretches);
     memory_free(scene);
 }

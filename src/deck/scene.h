@@ -31,6 +31,7 @@ struct scene_material {
     struct deck_place place;
     struct scene_transformation transformation;
     struct properties properties; /* of what melts and flows (prop) */
+    struct deck_place property_places[PROPERTY_COUNT], surface_place, melting_place; /* line 0: not given */
 };
 
 struct scene_body {

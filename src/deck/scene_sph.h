@@ -3,12 +3,11 @@
 #ifndef DECK_SCENE_SPH_H
 #define DECK_SCENE_SPH_H
 
+#include "base/methods.h"
 #include "deck/text.h"
 
 #include <stdbool.h>
 #include <stddef.h>
-
-enum method_name { METHOD_MPM, METHOD_SPH };
 
 /* Pressure force: p_a + p_b, or each divided by the Shepard sum of the other (spec 4.1). */
 enum pressure_form { PRESSURE_SYMMETRIC, PRESSURE_SHEPARD };
@@ -76,19 +75,11 @@ struct scene_stretch {
     struct deck_place place;
 };
 
-/* Named numbers written every step: see sph/probes. */
-struct scene_probe {
-    int kind; /* row of the table of probes */
-    double number[8];
-    struct deck_place place;
-};
-
 struct scene_sph {
     long dimension;           /* 2, 3 */
     double smoothing;         /* h over the spacing */
     double wide_smoothing;    /* the same of the surface's geometry */
     double sound_speed;       /* c0; 0: found from the scene */
-    bool adapts_sound;        /* and corrected as it goes */
     double density_diffusion; /* delta */
     bool diffuses_gradient;   /* s = 1: with renormalised gradients */
     enum pressure_form pressure;
@@ -115,7 +106,6 @@ struct scene_sph {
     double emissivity, ambient;
     bool evaporates;
     double ambient_pressure;
-    double removal_temperature; /* 0: none; ejected particles above it are removed */
     bool is_periodic;         /* the scene repeats along x, between the ends of the grid */
     bool freezes_flow;        /* velocities stay zero: conduction alone */
     double mush_drag;         /* K0; 0: none */
@@ -131,8 +121,6 @@ struct scene_sph {
     size_t n_swellings, swellings_capacity;
     struct scene_stretch *stretches;
     size_t n_stretches, stretches_capacity;
-    struct scene_probe *probes;
-    size_t n_probes, probes_capacity;
     struct deck_place place; /* of the word sph */
 };
 

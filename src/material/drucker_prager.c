@@ -51,6 +51,7 @@ static void update(const struct law_batch *batch)
 
 const struct law law_dpm = {
     .name = "dpm",
+    .methods = METHODS_MPM,
     .doc = "Drucker-Prager plasticity with tension cut-off",
     .parameters = (const struct argument[]){{"density", "mass/length^3", ARGUMENT_REAL, LIMIT_POSITIVE},
                                             {"young", "stress", ARGUMENT_REAL, LIMIT_POSITIVE},

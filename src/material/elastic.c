@@ -44,6 +44,7 @@ static void update(const struct law_batch *batch)
 
 const struct law law_elas = {
     .name = "elas",
+    .methods = METHODS_MPM,
     .doc = "linear elastic",
     .parameters = (const struct argument[]){{"density", "mass/length^3", ARGUMENT_REAL, LIMIT_POSITIVE},
                                             {"young", "stress", ARGUMENT_REAL, LIMIT_POSITIVE},

@@ -28,6 +28,7 @@ static void update(const struct law_batch *batch)
 
 const struct law law_hiex = {
     .name = "hiex",
+    .methods = METHODS_MPM,
     .doc = "high explosive; needs an equation of state (3) and detonation points",
     .parameters = (const struct argument[]){{"density", "mass/length^3", ARGUMENT_REAL, LIMIT_POSITIVE},
                                             {"D", "length/time", ARGUMENT_REAL, LIMIT_POSITIVE}, {0}},

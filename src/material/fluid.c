@@ -38,6 +38,7 @@ static void update(const struct law_batch *batch)
 
 const struct law law_null = {
     .name = "null",
+    .methods = METHODS_MPM,
     .doc = "viscous fluid; needs an equation of state (4)",
     .parameters = (const struct argument[]){{"density", "mass/length^3", ARGUMENT_REAL, LIMIT_POSITIVE},
                                             {"bulk", "stress", ARGUMENT_REAL, LIMIT_POSITIVE},

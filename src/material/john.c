@@ -31,6 +31,7 @@ static void update(const struct law_batch *batch)
 
 const struct law law_john = {
     .name = "john",
+    .methods = METHODS_MPM,
     .doc = "Johnson-Cook plasticity with temperature",
     .parameters = (const struct argument[]){JOHNSON_COOK_ELASTIC, JOHNSON_COOK_YIELD, JOHNSON_COOK_THERMAL,
                                             JOHNSON_COOK_RATE, {0}},

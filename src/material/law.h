@@ -7,6 +7,7 @@
 
 #include "base/threads.h"
 #include "base/argument.h"
+#include "base/methods.h"
 #include "particles/columns.h"
 
 enum { LAW_PARAMETERS = 16 };
@@ -69,6 +70,7 @@ struct law {
     const char *name; /* the word in the deck */
     const char *doc;
     const struct argument *parameters;
+    unsigned methods;       /* METHODS_... that it belongs to */
     enum column columns[8]; /* columns beyond those of every MPM scene, ended by COLUMN_NONE */
     bool rotates;           /* the old stress is rotated before the update (spec 6.3) */
     bool needs_eos;         /* pressure and energy come from an equation of state (spec 6.7) */
@@ -121,6 +123,6 @@ THREADS_INLINE void law_elastic_trial(const struct law_batch *batch, int j, doub
     }
 }
 
-extern const struct law law_elas, law_pla1, law_pla2, law_john, law_sjc, law_sjcf, law_jcf, law_hiex, law_null, law_dpm, law_neoh;
+extern const struct law law_elas, law_pla1, law_pla2, law_john, law_sjc, law_sjcf, law_jcf, law_hiex, law_null, law_dpm, law_neoh, law_flui;
 
 #endif

@@ -57,6 +57,7 @@ static void update(const struct law_batch *batch)
 
 const struct law law_neoh = {
     .name = "neoh",
+    .methods = METHODS_MPM,
     .doc = "neo-Hookean hyperelasticity; switches UVFp on",
     .parameters = (const struct argument[]){{"density", "mass/length^3", ARGUMENT_REAL, LIMIT_POSITIVE},
                                             {"young", "stress", ARGUMENT_REAL, LIMIT_POSITIVE},

@@ -43,6 +43,7 @@ static void update(const struct law_batch *batch)
 
 const struct law law_pla2 = {
     .name = "pla2",
+    .methods = METHODS_MPM,
     .doc = "elastic-plastic with linear isotropic hardening (von Mises)",
     .parameters = (const struct argument[]){{"density", "mass/length^3", ARGUMENT_REAL, LIMIT_POSITIVE},
                                             {"young", "stress", ARGUMENT_REAL, LIMIT_POSITIVE},

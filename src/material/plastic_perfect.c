@@ -35,6 +35,7 @@ static void update(const struct law_batch *batch)
 
 const struct law law_pla1 = {
     .name = "pla1",
+    .methods = METHODS_MPM,
     .doc = "elastic, perfectly plastic (von Mises)",
     .parameters = (const struct argument[]){{"density", "mass/length^3", ARGUMENT_REAL, LIMIT_POSITIVE},
                                             {"young", "stress", ARGUMENT_REAL, LIMIT_POSITIVE},

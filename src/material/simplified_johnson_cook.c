@@ -158,6 +158,7 @@ static void update_jcf(const struct law_batch *batch)
 
 const struct law law_sjc = {
     .name = "sjc",
+    .methods = METHODS_MPM,
     .doc = "Johnson-Cook plasticity without temperature, with equation of state",
     .parameters = (const struct argument[]){JOHNSON_COOK_ELASTIC, JOHNSON_COOK_YIELD, JOHNSON_COOK_RATE, {0}},
     .columns = {COLUMN_PLASTIC_STRAIN, COLUMN_YIELD_STRESS, COLUMN_MEAN_STRESS, COLUMN_NONE},
@@ -169,6 +170,7 @@ const struct law law_sjc = {
 
 const struct law law_sjcf = {
     .name = "sjcf",
+    .methods = METHODS_MPM,
     .doc = "as sjc; fails at the plastic strain epf",
     .parameters = (const struct argument[]){JOHNSON_COOK_ELASTIC, JOHNSON_COOK_YIELD, JOHNSON_COOK_RATE,
                                             JOHNSON_COOK_FAILURE, {0}},
@@ -183,6 +185,7 @@ const struct law law_sjcf = {
 
 const struct law law_jcf = {
     .name = "jcf",
+    .methods = METHODS_MPM,
     .doc = "Johnson-Cook plasticity with temperature, damage and failure, with equation of state",
     .parameters = (const struct argument[]){JOHNSON_COOK_ELASTIC, JOHNSON_COOK_YIELD, JOHNSON_COOK_THERMAL,
                                             JOHNSON_COOK_RATE, JOHNSON_COOK_FAILURE, {0}},

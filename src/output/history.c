@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "output/history.h"
 
-#include <string.h>
-
 /* "job" + ending, or the reference's bare name. Opens the table. */
 static bool open_named(struct table *table, const struct scene *scene, const char *folder, const char *ending,
                        const char *bare, enum table_mode mode)
@@ -15,18 +13,23 @@ static bool open_named(struct table *table, const struct scene *scene, const cha
     return good;
 }
 
+/* Totals that are of no particle go by their name alone. */
+static void write_curve_name(FILE *stream, const struct scene_curve *curve, bool is_bare)
+{
+    if (is_bare)
+        fprintf(stream, "%-4s%-8ld", curve->result->name, curve->particle + 1);
+    else if (curve->result->value)
+        fprintf(stream, " \"%s %ld\"", curve->result->name, curve->particle + 1);
+    else
+        fprintf(stream, " \"%s\"", curve->result->name);
+}
+
 static void write_curve_header(struct history *history, const struct scene *scene)
 {
     FILE *stream = history->curves.stream;
-    if (scene->bare_headers) {
-        fprintf(stream, "Time engk1       engi1       ");
-        for (size_t i = 0; i < scene->n_curves; i++)
-            fprintf(stream, "%-4s%-8ld", scene->curves[i].result->name, scene->curves[i].particle + 1);
-    } else {
-        fprintf(stream, "VARIABLES = \"Time\" \"engk\" \"engi\"");
-        for (size_t i = 0; i < scene->n_curves; i++)
-            fprintf(stream, " \"%s %ld\"", scene->curves[i].result->name, scene->curves[i].particle + 1);
-    }
+    fputs(scene->bare_headers ? "Time engk1       engi1       " : "VARIABLES = \"Time\" \"engk\" \"engi\"", stream);
+    for (size_t i = 0; i < scene->n_curves; i++)
+        write_curve_name(stream, &scene->curves[i], scene->bare_headers);
     table_end_line(&history->curves);
 }
 
@@ -62,8 +65,8 @@ bool history_open(struct history *history, const struct scene *scene, const char
 static double curve_value(const struct scene_curve *curve, const struct result_source *source,
                           const struct history_totals *totals)
 {
-    if (curve->result->is_total_in_curves)
-        return strcmp(curve->result->name, "engk") == 0 ? totals->kinetic : totals->internal;
+    if (curve->result->total != TOTAL_NONE)
+        return totals->value[curve->result->total];
     return curve->result->value(source, (size_t)source->store->index_of_id[curve->particle]);
 }
 
@@ -77,16 +80,16 @@ static void write_line(struct table *table, const double *values, int count)
 void history_step(struct history *history, const struct scene *scene, const struct result_source *source,
                   const struct history_totals *totals)
 {
+    const double kinetic = totals->value[TOTAL_KINETIC], internal = totals->value[TOTAL_INTERNAL];
+    const double *momentum = &totals->value[TOTAL_MOMENTUM_X];
     table_real(&history->curves, totals->time);
-    table_real(&history->curves, totals->kinetic);
-    table_real(&history->curves, totals->internal);
+    table_real(&history->curves, kinetic);
+    table_real(&history->curves, internal);
     for (size_t i = 0; i < scene->n_curves; i++)
         table_real(&history->curves, curve_value(&scene->curves[i], source, totals));
     table_end_line(&history->curves);
-    write_line(&history->energy,
-               (double[]){totals->time, totals->kinetic + totals->internal, totals->kinetic, totals->internal}, 4);
-    write_line(&history->momentum,
-               (double[]){totals->time, totals->momentum[0], totals->momentum[1], totals->momentum[2]}, 4);
+    write_line(&history->energy, (double[]){totals->time, kinetic + internal, kinetic, internal}, 4);
+    write_line(&history->momentum, (double[]){totals->time, momentum[0], momentum[1], momentum[2]}, 4);
     if (scene->contact != CONTACT_NONE)
         write_line(&history->contact,
                    (double[]){totals->time, totals->contact[0], totals->contact[1], totals->contact[2]}, 4);

@@ -8,7 +8,8 @@
 
 /* Totals that a step's lines need. */
 struct history_totals {
-    double time, kinetic, internal, momentum[3], contact[3];
+    double time, contact[3];
+    double value[TOTAL_COUNT]; /* by enum total; what a method does not have stays 0 */
 };
 
 struct history {

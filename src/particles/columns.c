@@ -152,6 +152,8 @@ size_t store_bytes_per_particle(const struct store *store)
 
 double store_pressure(const struct store *store, size_t p)
 {
+    if (store_has(store, COLUMN_PRESSURE))
+        return store->real[COLUMN_PRESSURE][0][p];
     if (store_has(store, COLUMN_MEAN_STRESS))
         return -store->real[COLUMN_MEAN_STRESS][0][p];
     return -(store->real[COLUMN_STRESS][0][p] + store->real[COLUMN_STRESS][1][p] + store->real[COLUMN_STRESS][2][p]) / 3;

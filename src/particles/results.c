@@ -148,40 +148,98 @@ static double is_open(const struct result_source *s, size_t p)
     return !result_is_closed(s, p);
 }
 
+#define COLUMN_VALUE(name, column) \
+    static double name(const struct result_source *s, size_t p) \
+    { \
+        return REAL(s, column, 0); \
+    }
+
+COLUMN_VALUE(density, COLUMN_DENSITY)
+COLUMN_VALUE(reference_density, COLUMN_REFERENCE_DENSITY)
+COLUMN_VALUE(smoothing_length, COLUMN_SMOOTHING_LENGTH)
+COLUMN_VALUE(viscosity, COLUMN_VISCOSITY)
+COLUMN_VALUE(enthalpy, COLUMN_ENTHALPY)
+COLUMN_VALUE(liquid, COLUMN_LIQUID)
+COLUMN_VALUE(curvature, COLUMN_CURVATURE)
+COLUMN_VALUE(laser_power, COLUMN_LASER_POWER)
+
+static double state(const struct result_source *s, size_t p)
+{
+    return s->store->integer[COLUMN_STATE][p];
+}
+
 static const struct result rows[] = {
-    {.name = "seqv", .unit = "stress", .doc = "von Mises stress", .value = von_mises},
-    {.name = "seqt", .unit = "stress", .doc = "von Mises stress of the total: with the residual stress of resi taken off",
+    {.name = "seqv", .methods = METHODS_MPM, .unit = "stress", .doc = "von Mises stress", .value = von_mises},
+    {.name = "seqt", .methods = METHODS_MPM, .unit = "stress", .doc = "von Mises stress of the total: with the residual stress of resi taken off",
      .value = von_mises_total},
-    {.name = "laye", .doc = "layer of the build", .is_integer = true, .columns = {COLUMN_LAYER}, .value = layer},
-    {.name = "ghos", .doc = "1 where the particle is open, 0 where it is closed", .is_integer = true, .value = is_open},
-    {.name = "epef", .doc = "effective plastic strain", .value = plastic_strain},
+    {.name = "laye", .methods = METHODS_MPM, .doc = "layer of the build", .is_integer = true, .columns = {COLUMN_LAYER}, .value = layer},
+    {.name = "ghos", .methods = METHODS_MPM, .doc = "1 where the particle is open, 0 where it is closed", .is_integer = true, .value = is_open},
+    {.name = "epef", .methods = METHODS_MPM, .doc = "effective plastic strain", .value = plastic_strain},
     {.name = "mat", .doc = "material number", .is_integer = true, .value = material},
     {.name = "pres", .unit = "stress", .doc = "pressure, minus the mean stress", .value = pressure},
     {.name = "volu", .unit = "length^3", .doc = "present volume", .value = volume},
     {.name = "vol", .unit = "length^3", .doc = "the same as volu", .value = volume},
     {.name = "engk", .unit = "energy", .doc = "kinetic energy; in a curve of all particles",
-     .is_total_in_curves = true, .value = kinetic_energy},
+     .total = TOTAL_KINETIC, .value = kinetic_energy},
     {.name = "engi", .unit = "energy", .doc = "internal energy; in a curve of all particles",
-     .is_total_in_curves = true, .value = internal_energy},
+     .methods = METHODS_MPM, .total = TOTAL_INTERNAL, .value = internal_energy},
     {.name = "velx", .unit = "length/time", .doc = "velocity along x", .value = velocity_x},
     {.name = "vely", .unit = "length/time", .doc = "velocity along y", .value = velocity_y},
     {.name = "velz", .unit = "length/time", .doc = "velocity along z", .value = velocity_z},
     {.name = "cels", .unit = "temperature", .doc = "temperature", .value = temperature},
-    {.name = "fail", .doc = "1 where the material failed", .is_integer = true, .value = failed},
-    {.name = "sspd", .unit = "length/time", .doc = "sound speed of the artificial viscosity", .value = sound_speed},
-    {.name = "damg", .doc = "damage", .value = damage},
-    {.name = "stsx", .unit = "stress", .doc = "stress xx", .value = stress_xx},
-    {.name = "stsy", .unit = "stress", .doc = "stress yy", .value = stress_yy},
-    {.name = "stsz", .unit = "stress", .doc = "stress zz", .value = stress_zz},
-    {.name = "styz", .unit = "stress", .doc = "stress yz", .value = stress_yz},
-    {.name = "stxz", .unit = "stress", .doc = "stress xz", .value = stress_xz},
-    {.name = "stxy", .unit = "stress", .doc = "stress xy", .value = stress_xy},
+    {.name = "fail", .methods = METHODS_MPM, .doc = "1 where the material failed", .is_integer = true, .value = failed},
+    {.name = "sspd", .methods = METHODS_MPM, .unit = "length/time", .doc = "sound speed of the artificial viscosity", .value = sound_speed},
+    {.name = "damg", .methods = METHODS_MPM, .doc = "damage", .value = damage},
+    {.name = "stsx", .methods = METHODS_MPM, .unit = "stress", .doc = "stress xx", .value = stress_xx},
+    {.name = "stsy", .methods = METHODS_MPM, .unit = "stress", .doc = "stress yy", .value = stress_yy},
+    {.name = "stsz", .methods = METHODS_MPM, .unit = "stress", .doc = "stress zz", .value = stress_zz},
+    {.name = "styz", .methods = METHODS_MPM, .unit = "stress", .doc = "stress yz", .value = stress_yz},
+    {.name = "stxz", .methods = METHODS_MPM, .unit = "stress", .doc = "stress xz", .value = stress_xz},
+    {.name = "stxy", .methods = METHODS_MPM, .unit = "stress", .doc = "stress xy", .value = stress_xy},
     {.name = "disx", .unit = "length", .doc = "displacement along x",
      .columns = {COLUMN_INITIAL_POSITION}, .value = displacement_x},
     {.name = "disy", .unit = "length", .doc = "displacement along y",
      .columns = {COLUMN_INITIAL_POSITION}, .value = displacement_y},
     {.name = "disz", .unit = "length", .doc = "displacement along z",
      .columns = {COLUMN_INITIAL_POSITION}, .value = displacement_z},
+#define SPH .methods = METHODS_SPH
+    {.name = "dens", .unit = "mass/length^3", .doc = "density", SPH, .columns = {COLUMN_DENSITY}, .value = density},
+    {.name = "rho0", .unit = "mass/length^3", .doc = "density without pressure at the present temperature", SPH,
+     .columns = {COLUMN_REFERENCE_DENSITY}, .value = reference_density},
+    {.name = "hsml", .unit = "length", .doc = "smoothing length h", SPH, .columns = {COLUMN_SMOOTHING_LENGTH},
+     .value = smoothing_length},
+    {.name = "visc", .unit = "stress*time", .doc = "dynamic viscosity", SPH, .columns = {COLUMN_VISCOSITY}, .value = viscosity},
+    {.name = "stat", .doc = "state: 0 fluid, 1 solid, 2 wall, 3 removed", .is_integer = true, SPH, .columns = {COLUMN_STATE},
+     .value = state},
+    {.name = "liqu", .doc = "liquid fraction", SPH, .columns = {COLUMN_LIQUID}, .value = liquid},
+    {.name = "enth", .unit = "energy/mass", .doc = "specific enthalpy, 0 at 293; with heat", SPH, .columns = {COLUMN_ENTHALPY},
+     .value = enthalpy},
+    {.name = "kapp", .unit = "1/length", .doc = "curvature of the surface, positive on a drop; with csf", SPH,
+     .columns = {COLUMN_CURVATURE}, .value = curvature},
+    {.name = "lasr", .unit = "power", .doc = "power taken from the beam; with beam", SPH, .columns = {COLUMN_LASER_POWER},
+     .value = laser_power},
+#undef SPH
+    {.name = "momx", .unit = "mass*length/time", .doc = "momentum along x", .total = TOTAL_MOMENTUM_X},
+    {.name = "momy", .unit = "mass*length/time", .doc = "momentum along y", .total = TOTAL_MOMENTUM_Y},
+    {.name = "momz", .unit = "mass*length/time", .doc = "momentum along z", .total = TOTAL_MOMENTUM_Z},
+#define SPH .total_methods = METHODS_SPH, .total
+    {.name = "heat", .unit = "energy", .doc = "enthalpy", SPH = TOTAL_HEAT},
+    {.name = "lasi", .unit = "energy", .doc = "energy of the beam since the start", SPH = TOTAL_LASER_IN},
+    {.name = "absb", .unit = "energy", .doc = "part of it that was absorbed", SPH = TOTAL_ABSORBED},
+    {.name = "refl", .unit = "energy", .doc = "part of it that was reflected", SPH = TOTAL_REFLECTED},
+    {.name = "tran", .unit = "energy", .doc = "part of it that met nothing", SPH = TOTAL_TRANSMITTED},
+    {.name = "radi", .unit = "energy", .doc = "energy radiated since the start", SPH = TOTAL_RADIATED},
+    {.name = "evap", .unit = "energy", .doc = "energy that evaporation took since the start", SPH = TOTAL_EVAPORATED},
+    {.name = "thru", .unit = "energy", .doc = "heat that came in from walls of given temperature since the start", SPH = TOTAL_THROUGH_WALLS},
+    {.name = "vish", .unit = "energy", .doc = "heat of viscosity since the start", SPH = TOTAL_VISCOUS_HEAT},
+    {.name = "powh", .unit = "energy", .doc = "heat of powe since the start", SPH = TOTAL_VOLUME_HEAT},
+    {.name = "tmax", .unit = "temperature", .doc = "highest temperature", SPH = TOTAL_HOTTEST},
+    {.name = "umax", .unit = "length/time", .doc = "highest speed of fluid", SPH = TOTAL_FASTEST},
+    {.name = "remo", .doc = "particles that left the grid since the start", SPH = TOTAL_REMOVED},
+    {.name = "pool", .unit = "length", .doc = "length of the melt pool along x", SPH = TOTAL_POOL_LENGTH},
+    {.name = "poow", .unit = "length", .doc = "width of the melt pool along y; 0 in two dimensions", SPH = TOTAL_POOL_WIDTH},
+    {.name = "pood", .unit = "length", .doc = "height of the melt pool along z, in two dimensions along y", SPH = TOTAL_POOL_DEPTH},
+#undef SPH
 };
 
 const struct result *result_rows(int *count)

@@ -3,6 +3,7 @@
 #ifndef PARTICLES_RESULTS_H
 #define PARTICLES_RESULTS_H
 
+#include "base/methods.h"
 #include "particles/columns.h"
 
 struct material;
@@ -28,16 +29,51 @@ static inline bool result_is_shown(const struct result_source *source, size_t p)
     return source->shows_closed || !result_is_closed(source, p);
 }
 
+/* Sums and extremes of all particles that a curve may show. */
+enum total {
+    TOTAL_NONE,
+    TOTAL_KINETIC,
+    TOTAL_INTERNAL,
+    TOTAL_MOMENTUM_X,
+    TOTAL_MOMENTUM_Y,
+    TOTAL_MOMENTUM_Z,
+    TOTAL_HEAT,
+    TOTAL_LASER_IN,
+    TOTAL_ABSORBED,
+    TOTAL_REFLECTED,
+    TOTAL_TRANSMITTED,
+    TOTAL_RADIATED,
+    TOTAL_EVAPORATED,
+    TOTAL_THROUGH_WALLS,
+    TOTAL_VISCOUS_HEAT,
+    TOTAL_VOLUME_HEAT,
+    TOTAL_HOTTEST,
+    TOTAL_FASTEST,
+    TOTAL_REMOVED,
+    TOTAL_POOL_LENGTH,
+    TOTAL_POOL_WIDTH,
+    TOTAL_POOL_DEPTH,
+    TOTAL_COUNT
+};
+
 struct result {
     const char *name;
     const char *unit;
     const char *doc;
     bool is_integer;
-    bool is_total_in_curves; /* engk and engi are sums over all particles in a curve */
+    unsigned methods;        /* METHODS_... that particles have it in; 0: all */
+    unsigned total_methods;  /* the same of the total */
+    enum total total;        /* what curves show, as those of engk and engi do; TOTAL_NONE: the particle's */
     const char *later;       /* not NULL: known name without its feature */
     enum column columns[3];  /* columns that it needs, ended by COLUMN_NONE */
-    double (*value)(const struct result_source *source, size_t particle);
+    double (*value)(const struct result_source *source, size_t particle); /* NULL: there is only the total */
 };
+
+/* Methods in which a curve of this result has a meaning. */
+static inline unsigned result_curve_methods(const struct result *result)
+{
+    return result->total == TOTAL_NONE ? result->methods : result->total_methods;
+}
 
 /* Row of a name (NUL-ended, four characters count), or NULL. */
 const struct result *result_find(const char *name);

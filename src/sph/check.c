@@ -110,10 +110,22 @@ static bool find_fixed_step(const struct sph *sph, struct instability *result)
     return true;
 }
 
+static bool find_lost(const struct sph *sph, struct instability *result)
+{
+    if (sph->scene->lost != LOST_STOP || sph->budget.removed == 0)
+        return false;
+    for (size_t id = 0; id < sph->store->count && result->particle < 0; id++)
+        if (sph->columns.state[sph->store->index_of_id[id]] == SPH_REMOVED)
+            result->particle = (long)id;
+    snprintf(result->cause, sizeof result->cause, "%ld particles left the grid", sph->budget.removed);
+    snprintf(result->advice, sizeof result->advice, "take a larger grid, or leave 'lost stop' out");
+    return true;
+}
+
 struct instability sph_check(const struct sph *sph)
 {
     static bool (*const finders[])(const struct sph *, struct instability *) = {find_not_finite, find_leap, find_density,
-                                                                                 find_small_step, find_fixed_step};
+                                                                                 find_small_step, find_fixed_step, find_lost};
     struct instability result;
     result.is_stopped = false;
     result.particle = -1;

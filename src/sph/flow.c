@@ -273,6 +273,13 @@ static double shift_of(const struct sph *sph, size_t p, int axis, double time_st
     return way > most ? most : way < -most ? -most : way;
 }
 
+/* What the drag of the mush leaves of a velocity: exp(-K dt), K = K0 (1 - s)^2/(s^3 + 1e-3) (spec 10). */
+static double left_by_mush(const struct sph *sph, size_t p, double time_step)
+{
+    const double s = sph->columns.liquid[p];
+    return exp(-time_step * sph->words->mush_drag * (1 - s) * (1 - s) / (s * s * s + 1e-3));
+}
+
 void flow_advance(struct sph *sph, double half_steps, double time_step)
 {
     const struct sph_columns *c = &sph->columns;
@@ -286,8 +293,9 @@ void flow_advance(struct sph *sph, double half_steps, double time_step)
             continue;
         }
         const bool is_inside = shifts && c->shepard[p] > INSIDE;
+        const double left = sph->words->mush_drag > 0 ? left_by_mush(sph, p, time_step) : 1;
         for (int i = 0; i < sph->dimension && !stays; i++) {
-            c->v[i][p] += half_steps * c->a[i][p];
+            c->v[i][p] = left * (c->v[i][p] + half_steps * c->a[i][p]);
             c->x[i][p] += time_step * c->v[i][p] + (is_inside ? shift_of(sph, p, i, time_step) : 0);
         }
     }

@@ -175,4 +175,8 @@ void sph_exchange(struct sph *sph, struct checkpoint *checkpoint);
 /* Energy of heat that is not accounted for, relative to what came in or was there. */
 double sph_heat_error(const struct sph *sph);
 
+/* Extents along the axes of what is at least half liquid of materials that melt, a spacing more than those of its
+ * particles' places; 0 where there is none. */
+void sph_pool(const struct sph *sph, double extents[3]);
+
 #endif

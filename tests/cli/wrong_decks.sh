@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Wrong decks, and right ones that look unusual: sh tests/cli/wrong_decks.sh PROGRAM
 # PROGRAM is mpm3d or a folder that holds it. Every deck is read with --check and has to end within
-# two seconds with the messages that wrong_decks.table or the cases made below ask for, and no others.
+# two seconds with the messages that wrong_decks.table, wrong_decks_sph.table or the cases made below ask
+# for, and no others.
 here=$(cd "$(dirname "$0")" && pwd) || exit 2
 program=$1
 [ -d "$program" ] && program=$program/mpm3d
@@ -20,8 +21,10 @@ UBSAN_OPTIONS=exitcode=99:${UBSAN_OPTIONS:-}; export UBSAN_OPTIONS
 for topic in '' mate load velo outr; do "$program" --help $topic; done </dev/null 2>/dev/null |
     awk '/\(not in this version\)/ { print "later_" tolower($1) }' >later
 
-# The decks of the table, and in `cases` for each: name, status, FILE:LINE:COLUMN:KIND ..., fragment
-awk -v base="$here/wrong_decks.base.mpm" '
+# The decks of a table, and in `cases` for each: name, status, FILE:LINE:COLUMN:KIND ..., fragment
+# make_decks NAME: those of NAME.table, from NAME.base.mpm
+make_decks() {
+    awk -v base="$here/$1.base.mpm" -v table="$1.table" '
     function escapes(text) {
         gsub(/\\n/, "\n", text); gsub(/\\t/, "\t", text); gsub(/\\r/, "\r", text); gsub(/\\s/, " ", text)
         gsub(/\\\\/, "\\", text)
@@ -38,7 +41,7 @@ awk -v base="$here/wrong_decks.base.mpm" '
         else if (what == "=") line[number] = text
         else if (what == "+") before[number] = text "\n"
         else if (what == "<") last = number
-        else print "FAIL wrong_decks.table: bad edit in line " NR ": " what >"/dev/stderr"
+        else print "FAIL " table ": bad edit in line " NR ": " what >"/dev/stderr"
     }
     # Writes the deck without its marks and returns their places.
     function write(name,    text, row, column, i, c, places) {
@@ -73,10 +76,14 @@ awk -v base="$here/wrong_decks.base.mpm" '
         fragment = trim(substr(rest, 1, RLENGTH - 2)); edits = trim(substr(rest, RLENGTH + 1))
         count = split(edits, part, / ;; /)
         for (i = 1; i <= count; i++) edit(trim(part[i]))
-        if (seen[name]++) print "FAIL wrong_decks.table: two decks are called " name >"/dev/stderr"
+        if (seen[name]++) print "FAIL " table ": two decks are called " name >"/dev/stderr"
         places = write(name ".mpm")
         print name "\t" (places ~ /error/ ? 2 : 0) "\t" places "\t" fragment
-    }' "$here/wrong_decks.table" >cases 2>complaints
+    }' "$here/$1.table" >>cases 2>>complaints
+}
+: >cases; : >complaints
+make_decks wrong_decks
+make_decks wrong_decks_sph
 cat complaints
 
 # --- decks that a line of the table can't say ---
