@@ -88,7 +88,7 @@ static const char full[] =
     HEAD "mate 1 flui 2 .1\n"
     "prop 1 dens 2 100 3 200 2 extr prop 1 capa 1 0 7 prop 1 surf 2 0 1 9 .5 prop 1 melt 150 160 40 prop 1 boil 300 5 .1\n" BODIES
     "sph dime 2 hrat 1.5 hsra 2 c0 30 delt .2 grad pgra shep visc morr inte thes cfl .05 csf thes dept off csfe .3 mara on heat appa\n"
-    "latc on vhea on mcfa .2 rela on redu 1.5 shif .3 tens on vsmo on radi .4 290 evap 1e5 remo 600 froz on mush 9 jitt .1 5\n"
+    "latc on vhea on mcfa .2 rela on redu 1.5 shif .3 tens on vsmo on radi .4 290 evap 1e5 froz on mush 9 jitt .1 5\n"
     "peri on powe 8 wall 2 velo 1 2 3 temp 120 nost\ntemp 1 155 swel 1 cycl .1 2 stre 1 1 2 3\n"
     "beam 150 .5 .3 alpha 4 line .1 bins 1.5\npath 0 1 2 3 4 5 6 7\npath 1 2 5 6 7 5 6 7 ends\n"
     "load grav 1 0 -9 0 endl velo body 1 1 0 0 endv outr kapp curv pool curx pres 2.4 5.6 .5\nendi\n";
@@ -115,7 +115,7 @@ static void test_heat(const struct scene_sph *sph)
     const struct scene_beam *beam = &sph->beam;
     check_true("words: surface", sph->surface == SURFACE_THESIS && !sph->corrects_depth && sph->surface_threshold == 0.3 && sph->has_marangoni);
     check_true("words: heat", sph->heat == HEAT_APPARENT && sph->corrects_lattice && sph->heats_by_viscosity && sph->volume_heat == 8
-                                  && sph->mush_drag == 9 && sph->removal_temperature == 600);
+                                  && sph->mush_drag == 9);
     check_true("words: melting; masses are those at the solidus",
                sph->mass == MASS_AT_SOLIDUS && sph->melt_sound_factor == 0.2 && sph->relaxes_excess);
     check_true("words: losses", sph->radiates && sph->emissivity == 0.4 && sph->ambient == 290 && sph->evaporates && sph->ambient_pressure == 1e5);
