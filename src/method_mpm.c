@@ -45,7 +45,7 @@ static struct instability equilibrate(struct run *run)
     run->mpm->time += 1;
     mpm_equilibrate(run->mpm);
     if (equilibrium_report(run->mpm)->floating > 0 && !run->has_told_floating) {
-        run->has_told_floating = true;
+        run->has_told_floating = 1;
         summary_floating(run->mpm, stderr);
         summary_floating(run->mpm, run->log);
     }

@@ -176,6 +176,7 @@ static void exchange_output(struct run *run, struct checkpoint *checkpoint)
     checkpoint_item(checkpoint, "marks", run->marks, sizeof *run->marks, RUN_TABLES);
     if (checkpoint_is_reading(checkpoint) && checkpoint_is_good(checkpoint) && !are_sound(run))
         checkpoint_reject(checkpoint, "numbers of the output");
+    checkpoint_item(checkpoint, "told of floating bodies", &run->has_told_floating, sizeof run->has_told_floating, 1);
     if (scene->writes_animation)
         checkpoint_item(checkpoint, "shown", run->is_shown, 1, run->store->count);
     if (scene->writes_vtk)

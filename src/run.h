@@ -63,7 +63,7 @@ struct run {
     unsigned char *is_shown; /* per id, room for the animation */
     float next_output, next_report;
     long dumps;
-    bool has_told_floating; /* that free motions of bodies are taken out (quas) */
+    int has_told_floating; /* 0, or 1: that free motions of bodies are taken out (quas) */
     double started;
     bool is_under_way;    /* the files are open and at their places */
     char *restart_folder; /* of the checkpoint, where it is also that of the output */

@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 /* To be raised when the order or the meaning of the arrays changes. */
-enum { VERSION_OF_FORMAT = 1 };
+enum { VERSION_OF_FORMAT = 2 };
 
 enum { NAME = 48, BLOCK = 1 << 20 };
 
@@ -125,14 +125,23 @@ static void sync_folder(const char *path)
     memory_free(folder);
 }
 
-/* Keeps the file of that name as NAME.old, so that at no moment there is none. */
-static void keep_previous(const char *path)
+/* Gives the new file its name; the one that had it becomes NAME.old. That comes last: a run may have gone on from
+ * NAME.old because NAME was damaged, so at each moment one of the two names is that of a whole checkpoint. */
+static bool take_name(const struct checkpoint *checkpoint)
 {
-    char *old = with_ending(path, ".old");
-    (void)unlink(old);
-    if (link(path, old) != 0 && errno != ENOENT)
-        (void)rename(path, old); /* on file systems without links */
+    char *old = with_ending(checkpoint->path, ".old"), *kept = with_ending(checkpoint->path, ".kept");
+    (void)unlink(kept);
+    const bool is_kept = link(checkpoint->path, kept) == 0;
+    if (!is_kept && errno != ENOENT)
+        (void)rename(checkpoint->path, old); /* on file systems without links */
+    const int failure = rename(checkpoint->part, checkpoint->path) == 0 ? 0 : errno;
+    if (is_kept && !failure)
+        (void)rename(kept, old);
+    (void)unlink(kept);
     memory_free(old);
+    memory_free(kept);
+    errno = failure;
+    return !failure;
 }
 
 static bool finish(struct checkpoint *checkpoint)
@@ -147,9 +156,7 @@ static bool finish(struct checkpoint *checkpoint)
     if (fclose(checkpoint->stream) != 0)
         report_unwritten(checkpoint);
     checkpoint->stream = NULL;
-    if (checkpoint->is_good)
-        keep_previous(checkpoint->path);
-    if (checkpoint->is_good && rename(checkpoint->part, checkpoint->path) != 0)
+    if (checkpoint->is_good && !take_name(checkpoint))
         report_unwritten(checkpoint);
     if (checkpoint->is_good)
         sync_folder(checkpoint->path);

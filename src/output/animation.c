@@ -29,7 +29,7 @@ static void write_row(struct table *table, const struct scene *scene, const stru
         else
             table_real(table, value);
     }
-    fputc('\n', table->stream);
+    table_end_line(table);
 }
 
 /* The zone of the particles with ids first ... last - 1. */

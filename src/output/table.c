@@ -36,16 +36,14 @@ bool table_open_job(struct table *table, const char *folder, const char *job, co
     return good;
 }
 
-/* Fortran's E format has the point before the first digit: shifts C's by one decade. */
-static void write_fortran(FILE *stream, double value, int digits)
+/* Fortran's E format has the point before the first digit: shifts C's by one decade. False when it can't be written. */
+static bool write_fortran(FILE *stream, double value, int digits)
 {
     char text[64];
     snprintf(text, sizeof text, "%.*e", digits - 1, value);
     char *exponent = strchr(text, 'e');
-    if (!exponent) { /* not finite: runs stop before this */
-        fprintf(stream, " %*s", digits + 7, text);
-        return;
-    }
+    if (!exponent) /* not finite: runs stop before this */
+        return fprintf(stream, " %*s", digits + 7, text) >= 0;
     int power = atoi(exponent + 1) + (value != 0);
     bool is_negative = text[0] == '-';
     const char *mantissa = text + is_negative;
@@ -53,16 +51,20 @@ static void write_fortran(FILE *stream, double value, int digits)
     const char *form = power > 99 || power < -99 ? "%s0.%c%.*s%+04d" : "%s0.%c%.*sE%+03d";
     snprintf(shifted, sizeof shifted, form, is_negative ? "-" : "", mantissa[0], (int)(exponent - mantissa) - 2,
              mantissa + 2, power);
-    fprintf(stream, "%*s", digits + 8, shifted);
+    return fprintf(stream, "%*s", digits + 8, shifted) >= 0;
 }
 
 void table_real(struct table *table, double value)
 {
     int digits = table->style.digits;
+    bool is_written;
+    errno = 0;
     if (table->style.fortran)
-        write_fortran(table->stream, value, digits);
+        is_written = write_fortran(table->stream, value, digits);
     else
-        fprintf(table->stream, " %*.*E", digits + 7, digits - 1, value);
+        is_written = fprintf(table->stream, " %*.*E", digits + 7, digits - 1, value) >= 0;
+    if (!is_written && !table->failure)
+        table->failure = errno;
 }
 
 static bool report(const struct table *table)

@@ -259,6 +259,7 @@ static FILE *open_part(const char *name, char **part)
     FILE *stream = fopen(*part, "wb");
     if (!stream)
         status_error("cannot create '%s': %s", *part, strerror(errno));
+    errno = 0;
     return stream;
 }
 
@@ -267,8 +268,9 @@ static bool close_part(FILE *stream, const char *name, char *part)
 {
     bool good = false;
     if (stream) {
-        errno = 0;
-        bool had_error = ferror(stream) != 0;
+        const bool had_error = ferror(stream) != 0;
+        if (!had_error) /* else it tells why writing failed */
+            errno = 0;
         good = fclose(stream) == 0 && !had_error && rename(part, name) == 0;
         if (!good) {
             status_error("cannot write '%s': %s", name, strerror(errno ? errno : EIO));

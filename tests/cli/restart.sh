@@ -89,7 +89,7 @@ for place in 16 20 $((size - 32)) $((size - 10)) $((size - 1)); do
 done
 [ $wrong = 0 ] && echo "ok $tried checkpoints with a flipped bit are refused"
 flip 16
-expect "another version" 4 "is a checkpoint of version [0-9]*; this program reads version 1" "$mpm3d" --restart bad small.mpm
+expect "another version" 4 "is a checkpoint of version [0-9]*; this program reads version 2" "$mpm3d" --restart bad small.mpm
 expect "no checkpoint" 4 "'small.mpm' is no checkpoint of mpm3d" "$mpm3d" --restart small.mpm small.mpm
 : >bad
 expect "an empty file" 4 "'bad' is no checkpoint of mpm3d" "$mpm3d" --restart bad small.mpm
