@@ -73,12 +73,13 @@ static enum status run_deck(const struct run_options *options)
 {
     struct run run;
     signal(SIGXFSZ, SIG_IGN); /* a file that grows too large is a failure to write as any other */
+    if (!options->only_check)
+        catch_signals();
     enum status status = run_open(&run, options);
     if (status == STATUS_FINISHED && options->only_check) {
         run.method->print_scene(&run, stdout);
         return run_close(&run, status);
     }
-    catch_signals();
     while (status == STATUS_FINISHED && run_goes_on(&run)) {
         status = run_step(&run);
         if (status == STATUS_FINISHED && interrupted)
