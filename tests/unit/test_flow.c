@@ -116,6 +116,8 @@ static struct scene *channel(int cells, double smoothing, bool has_walls, enum v
     scene->sph.density_diffusion = 0.1;
     scene->sph.viscosity = form;
     scene->end_time = 1e9;
+    for (int a = 0; a < 6; a++)
+        scene->grid[a] = a % 2 ? 1 : -1;
     add_block(scene, (double[]){0, 0}, along, cells, dx);
     scene->loads = memory_array(1, sizeof *scene->loads, "a test");
     if (!has_walls)
