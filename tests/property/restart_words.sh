@@ -71,6 +71,11 @@ compare "layers, raster" coverage/build_layers.mpm "scan raster 0 45 90"
 compare "held nodes" coverage/build_layers.mpm "fixn -9 9 -9 9 -9 9 1 0 1"
 cp "$here/property/restart.mpm" coverage/falling.mpm
 compare "lost drop, kinetic damping" coverage/falling.mpm ""
+cp "$here/../decks/sph/laplace_2d.mpm" coverage/drop.mpm
+compare "smoothed particles: a drop" coverage/drop.mpm ""
+cp "$here/../decks/sph/heat_plates.mpm" coverage/plates.mpm
+compare "smoothed particles: heat" coverage/plates.mpm ""
+
 # compared in restart.sh, to their end
 sed 's/!.*//' "$here/property/equilibria.mpm" "$here/property/identity.mpm" "$here/decks/coverage/build_points.mpm" |
     tr -s ' \t,' '\n' | tr A-Z a-z | cut -c1-4 >>seen
