@@ -2,7 +2,13 @@
 #: The partitioned cylinder of the thesis (5.3, coarse, decks/thesis/compression_coarse.mpm): a disc of radius 3.8, 3.8 mm
 #: thick, whose opening of radius 2.28 is crossed by a web of 1.52 mm, made of cubes of 0.19 mm. Its top row is
 #: pressed down with 100 N/mm^3 (109.744 N), its bottom row stands on a clamped floor. Half of it, the plane x = 0 being one
-#: of symmetry. Cells are those in the radius; cubes are cut into points, or joined where a cell is coarser.
+#: of symmetry, and a thousandth of the load, so that small strain is exact. Cells are those in the radius; cubes are cut
+#: into points, or joined where a cell is coarser. Value: mean stress along y, MPa for the whole load, in the web at y = 0.
+#: Answer: -15.14, where finite elements on the same cubes (eight nodes, edges of 0.19, 0.095, 0.0475 mm: -14.956 -15.060
+#: -15.105) tend to; a round body with flats has -14.80, so that shape counts for more than this. The static limit of
+#: linear shapes in 10 cells, by that other program, is -14.322.
+#: With whole = 1 (a case of its own): the mean over the volume. In balance that is F (3.8 - 0.095 + 3.8)/V = -5.98007968, to
+#: the strain of some 1e-7, with any cells that fit the cubes; the error says how well motion is damped, equilibrium solved.
 BEGIN {
     cube = 0.19
     if (what == "deck") { fill(3.8 / cells); print_deck(3.8 / cells) }

@@ -8,6 +8,8 @@ FNR == NR {
     program[field[1]] = part[1]
     answers[field[1]] = field[7]
     good_to[field[1]] = field[8] + 0
+    n_words = split(field[9], part, " ")
+    for (i = 1; i < n_words; i += 2) asked[field[1], part[i]] = part[i + 1]
     next
 }
 FNR == 1 { next }
@@ -15,6 +17,8 @@ FNR == 1 { next }
     rows++
     name[rows] = $1; scheme[rows] = $2; cells[rows] = $3; dtsc[rows] = $4; error[rows] = $5; seconds[rows] = $6
     steps[rows] = $7; bytes[rows] = $8; status[rows] = $9; value[rows] = $10; exact[rows] = $11
+    order_at[rows] = $12 == "nan" ? "" : sprintf("%.2f", $12); fit[rows] = sprintf("%.2f", $13)
+    order_exactly[rows] = $12
     if (!($1 in from)) { from[$1] = rows; order[++cases] = $1 }
     to[$1] = rows
 }
@@ -33,16 +37,6 @@ function mark_front(c,    r, q) {
             if (has_error(q) && error_in(q) <= error_in(r) && seconds[q] + 0 <= seconds[r] + 0 &&
                 (error_in(q) < error_in(r) || seconds[q] + 0 < seconds[r] + 0)) on_front[r] = 0
     }
-}
-
-# The order of convergence that brought row r: from the next coarser run of the same scheme and step.
-function order_of(r, c,    q, coarse) {
-    for (q = from[c]; q <= to[c]; q++)
-        if (scheme[q] == scheme[r] && dtsc[q] == dtsc[r] && cells[q] + 0 < cells[r] + 0 &&
-            (!coarse || cells[q] + 0 > cells[coarse] + 0)) coarse = q
-    if (!coarse || !has_error(r) || !has_error(coarse)) return ""
-    if (error_in(r) == good_to[c] || error_in(coarse) == good_to[c]) return "" # no orders below the answer
-    return sprintf("%.2f", log(error_in(coarse) / error_in(r)) / log(cells[r] / cells[coarse]))
 }
 
 function print_description(c,    line, path) {
@@ -72,17 +66,53 @@ function next_on_front(c, last,    r, best) {
     return best
 }
 
-# The order of each scheme between its two finest runs with an error, at the first time step.
-function print_orders(c,    r, q, text, finest) {
-    split("", finest)
-    for (r = from[c]; r <= to[c]; r++)
-        if ((dtsc[r] == dtsc[from[c]] || dtsc[r] == "-") && order_of(r, c) != "") finest[scheme[r]] = r
-    for (r = from[c]; r <= to[c]; r++)
-        if (finest[scheme[r]] == r) text = text (text ? ", " : "") scheme[r] " " order_of(r, c)
-    if (text) print "<p>Order of convergence between the two finest runs: " text ".</p>"
+# What is asked of the order of a scheme's finest run r: nothing, or the words for met or missed.
+function judged(r, c) {
+    if (!((c, scheme[r]) in asked)) return ""
+    return "at least " asked[c, scheme[r]] ": " (order_exactly[r] + 0 >= asked[c, scheme[r]] + 0 ? "met" : "<b class=bad>missed</b>")
 }
 
-# Which runs are worth it: the front in words; what the schemes beside it miss.
+# The orders of each scheme at the first time step: between its two finest runs with an error above that of the answer,
+# and of the line through all of them.
+function print_orders(c,    r, finest, count) {
+    split("", finest)
+    for (r = from[c]; r <= to[c]; r++)
+        if ((dtsc[r] == dtsc[from[c]] || dtsc[r] == "-") && order_at[r] != "" &&
+            (!(scheme[r] in finest) || cells[r] + 0 > cells[finest[scheme[r]]] + 0)) { finest[scheme[r]] = r; count++ }
+    if (!count) return
+    print "<p>Order of convergence in cells" (dtsc[from[c]] == "-" ? "" : " at dtsc " dtsc[from[c]]) ":</p>"
+    print "<table><tr><th>scheme<th>up to cells<th>of the two finest runs<th>of all, least squares<th>asked of the two finest</tr>"
+    for (r = from[c]; r <= to[c]; r++)
+        if (finest[scheme[r]] == r)
+            print "<tr><td>" scheme[r] "<td>" cells[r] "<td>" order_at[r] "<td>" fit[r] "<td>" judged(r, c) "</tr>"
+    print "</table>"
+}
+
+# The scheme that has the least error over most of the time between the quickest and the slowest run (in its logarithm).
+function print_worth(c,    r, last, slowest, span, whole, own, best, least) {
+    split("", told); split("", own)
+    for (r = from[c]; r <= to[c]; r++) {
+        if (!has_error(r)) continue
+        if (seconds[r] + 0 > slowest) slowest = seconds[r] + 0
+        if (!least || error_in(r) < error_in(least) || (error_in(r) == error_in(least) && seconds[r] + 0 < seconds[least] + 0)) least = r
+    }
+    if (!least) { print "<p>No run has an error, so no scheme is worth it here.</p>"; return }
+    while ((r = next_on_front(c, last)) > 0) {
+        if (last) own[scheme[last]] += log(seconds[r] / seconds[last])
+        else first_seconds = seconds[r] + 0
+        told[r] = 1; last = r
+    }
+    own[scheme[last]] += log(slowest / seconds[last])
+    whole = log(slowest / first_seconds)
+    for (r = from[c]; r <= to[c]; r++)
+        if (scheme[r] in own && (best == "" || own[scheme[r]] > own[best])) best = scheme[r]
+    printf "<p class=worth><b>Worth it: %s</b>, which has the least error over %.0f %% of the times from %s to %s s (in their logarithm)", \
+        best, whole > 0 ? 100 * own[best] / whole : 100, first_seconds, slowest
+    if (scheme[least] == best) printf ", and the least of all, %s in %s s.</p>\n", error[least], seconds[least]
+    else printf "; the least of all is %s by %s in %s s.</p>\n", error[least], scheme[least], seconds[least]
+}
+
+# The front in words; what the schemes beside it miss.
 function print_verdict(c,    r, q, last, text, count, best) {
     split("", told); split("", winner); split("", others)
     while ((r = next_on_front(c, last)) > 0) {
@@ -108,7 +138,7 @@ function print_verdict(c,    r, q, last, text, count, best) {
 function print_spoilt(c,    r, text, grows) {
     for (r = from[c]; r <= to[c]; r++) {
         if (status[r] != 0) text = text (text ? ", " : "") run_name(r) " (status " status[r] ")"
-        if (order_of(r, c) != "" && order_of(r, c) + 0 < 0) grows = grows (grows ? ", " : "") run_name(r)
+        if (order_at[r] != "" && order_exactly[r] + 0 < 0) grows = grows (grows ? ", " : "") run_name(r)
     }
     if (text) print "<p class=bad>Runs that failed: " text ".</p>"
     if (grows) print "<p class=bad>No convergence, the error is larger than with fewer cells: " grows ".</p>"
@@ -116,10 +146,10 @@ function print_spoilt(c,    r, text, grows) {
 
 function print_rows(c,    r) {
     print "<details><summary>All " to[c] - from[c] + 1 " runs</summary><table><tr><th>scheme<th>cells<th>dtsc<th>error" \
-        "<th>order<th>seconds<th>particle-steps<th>memory, bytes<th>status<th>value<th>answer</tr>"
+        "<th>order<th>fit<th>seconds<th>particle-steps<th>memory, bytes<th>status<th>value<th>answer</tr>"
     for (r = from[c]; r <= to[c]; r++)
         print "<tr" (on_front[r] ? " class=front" : status[r] != 0 ? " class=bad" : "") "><td>" scheme[r] "<td>" cells[r] "<td>" \
-            dtsc[r] "<td>" error[r] "<td>" order_of(r, c) "<td>" seconds[r] "<td>" steps[r] "<td>" bytes[r] "<td>" status[r] \
+            dtsc[r] "<td>" error[r] "<td>" order_at[r] "<td>" (order_at[r] == "" ? "" : fit[r]) "<td>" seconds[r] "<td>" steps[r] "<td>" bytes[r] "<td>" status[r] \
             "<td>" value[r] "<td>" (answers[c] ~ /error/ ? "" : exact[r]) "</tr>"
     print "</table></details>"
 }
@@ -128,7 +158,7 @@ END {
     print "<!DOCTYPE html><html lang=en><meta charset=utf-8><title>Accuracy of " version "</title><style>"
     print "body{font:16px/1.45 sans-serif;max-width:960px;margin:2em auto;padding:0 1em;color:#222}"
     print "table{border-collapse:collapse;font-size:13px}td,th{border:1px solid #ccc;padding:2px 7px;text-align:right}"
-    print "td:first-child,th:first-child{text-align:left}.front{background:#e3f1e3;font-weight:bold}.bad{color:#a11}"
+    print "td:first-child,th:first-child{text-align:left}.front{background:#e3f1e3;font-weight:bold}.bad{color:#a11}.worth{border-left:4px solid #4a4;padding-left:.6em}"
     print "figure{margin:1em 0}img{max-width:100%}summary{cursor:pointer}</style>"
     print "<h1>Accuracy and cost</h1>"
     printf "<p>%s on %s: %d runs of size <i>%s</i> in %d s, one after another on one thread. ", version, machine, rows, size, seconds_all
@@ -136,7 +166,8 @@ END {
     print "steps of a millisecond (less counts as one), the least of three where it is below 0.1 s; memory is that of particles and grid; a particle-step is one step of one"
     print "particle, for the static method (quas) one application of the stiffness to it. The front of Pareto joins the runs that no"
     print "other run of the case beats in both error and time (bold in the tables). The same numbers stand in"
-    print "<a href=table.txt>table.txt</a>.</p><ul>"
+    print "<a href=table.txt>table.txt</a>. An order there is that from the next coarser run to this one, a fit that of the line through this"
+    print "and all coarser ones.</p><ul>"
     for (i = 1; i <= cases; i++) print "<li><a href=#" order[i] ">" order[i] "</a>"
     print "</ul>"
     for (i = 1; i <= cases; i++) {
@@ -148,6 +179,7 @@ END {
         print_chart(c, "time", "against time")
         print_chart(c, "order", "against resolution")
         print_rows(c)
+        print_worth(c)
     }
     print "</html>"
 }

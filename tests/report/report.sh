@@ -113,7 +113,7 @@ for case_name in $(awk 'NR > 1 && !seen[$1]++ { print $1 }' "$folder/table.txt")
         --xlabel "run time" --ylabel "relative error$least" --unit s,1 --title "$case_name: error against run time" \
         --out "$folder/$case_name-time.svg" 2>>"$work/tecview.said"
     "$build/tecview" curve "$work/$case_name.order" --x cells --y error --group scheme --points --log xy \
-        --xlabel "cells in the length" --ylabel "relative error$least" --unit 1,1 --title "$case_name: error against resolution" \
+        --xlabel "resolution, cells" --ylabel "relative error$least" --unit 1,1 --title "$case_name: error against resolution" \
         --out "$folder/$case_name-order.svg" 2>>"$work/tecview.said"
 done
 awk -v size="$size" -v folder="$folder" -v here="$here" -v version="$("$build/mpm3d" --version)" -v machine="$(uname -sm)" \

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #: A free elastic beam, ten times as long as high (10 x 1, Young's modulus and density 1, Poisson's ratio 0), in its first
 #: bending mode over one period, with so small a deflection that no point crosses a cell.
-#: Answer: the deflection W(x) sin(wt) of Timoshenko's theory (shear coefficient 5/6, which is right for this
-#: section to the second order in height over length); the frequency w is the root of its equation, 3.2 % below that of
-#: Euler and Bernoulli. The error is the root mean square over points and sixteen times, over that of the mode.
+#: Answer: the deflection W(x) sin(wt) of Timoshenko's theory with the shear coefficient 5/6; its frequency w, the root of its
+#: equation, is 0.0625862, 3.1 % below that of Euler and Bernoulli. Plane finite elements (eight nodes, 4 in the height) give
+#: 0.062587 and the same W within 6e-5.
+#: The error is the root mean square over points and sixteen times, over that of the mode.
 #: Cells are those in the height. (The word nuli gives this mode to one plate of 49152 points only.)
 BEGIN {
     long = 10; amplitude = 1e-6; slender = 1 / 12 # radius of inertia of the section, squared
