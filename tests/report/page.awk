@@ -107,7 +107,7 @@ function print_worth(c,    r, last, slowest, span, whole, own, best, least) {
     for (r = from[c]; r <= to[c]; r++)
         if (scheme[r] in own && (best == "" || own[scheme[r]] > own[best])) best = scheme[r]
     printf "<p class=worth><b>Worth it: %s</b>, which has the least error over %.0f %% of the times from %s to %s s (in their logarithm)", \
-        best, whole > 0 ? 100 * own[best] / whole : 100, first_seconds, slowest
+        best, (whole > 0 ? 100 * own[best] / whole : 100), first_seconds, slowest
     if (scheme[least] == best) printf ", and the least of all, %s in %s s.</p>\n", error[least], seconds[least]
     else printf "; the least of all is %s by %s in %s s.</p>\n", error[least], scheme[least], seconds[least]
 }
