@@ -88,6 +88,8 @@ function print_orders(c,    r, finest, count) {
     print "</table>"
 }
 
+function error_said(r) { return error[r] + 0 < good_to[name[r]] ? "below the " good_to[name[r]] " that the answer is good to" : error[r] + 0 }
+
 # The scheme that has the least error over most of the time between the quickest and the slowest run (in its logarithm).
 function print_worth(c,    r, last, slowest, span, whole, own, best, least) {
     split("", told); split("", own)
@@ -108,8 +110,8 @@ function print_worth(c,    r, last, slowest, span, whole, own, best, least) {
         if (scheme[r] in own && (best == "" || own[scheme[r]] > own[best])) best = scheme[r]
     printf "<p class=worth><b>Worth it: %s</b>, which has the least error over %.0f %% of the times from %s to %s s (in their logarithm)", \
         best, (whole > 0 ? 100 * own[best] / whole : 100), first_seconds, slowest
-    if (scheme[least] == best) printf ", and the least of all, %s in %s s.</p>\n", error[least], seconds[least]
-    else printf "; the least of all is %s by %s in %s s.</p>\n", error[least], scheme[least], seconds[least]
+    if (scheme[least] == best) printf ", and the least of all, %s, in %s s.</p>\n", error_said(least), seconds[least]
+    else printf "; the least of all, %s, is that of %s in %s s.</p>\n", error_said(least), scheme[least], seconds[least]
 }
 
 # The front in words; what the schemes beside it miss.
