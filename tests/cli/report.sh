@@ -41,7 +41,7 @@ check "each case ends with the scheme that is worth it" awk '/<h2 id=/ { cases++
     END { exit cases != 4 || said != 4 }' "$folder/report/index.html"
 
 # Orders on a made-up table: 0.4 0.1 0.05 with 2 4 8 cells have order 2, then 1, and log2 of them a line of slope -1.5.
-echo 'made | made | a b c quas | 0.5 0.1 | ; ; | measure | 2 | 1e-3 | a 0.9 b 1.5 quas 0.9' >"$folder/made.cases"
+echo 'made | made | a b c d quas | 0.5 0.1 | ; ; | measure | 2 | 1e-3 | a 0.9 b 1.5 d 0.9 quas 0.9' >"$folder/made.cases"
 while read -r scheme cells dtsc status value seconds; do echo "made $scheme $cells $dtsc $status $value $seconds 10 20"; done \
     >"$folder/made.runs" <<EOF
 a 2 0.5 0 2.8 1
@@ -53,6 +53,9 @@ b 4 0.5 0 2.8 2
 b 2 0.5 0 3.6 1
 b 8 0.5 3 nan 4
 b 16 0.5 0 2.2 8
+d 2 0.5 0 2.2 3
+d 4 0.5 0 2.8 6
+d 8 0.5 0 2.4 12
 c 2 0.5 0 2.4 1
 c 4 0.5 0 2.0001 100
 quas 2 0.5 0 2.4 0.5
@@ -78,6 +81,7 @@ awk -v size=smoke -v folder="$folder" -v here="$root/tests/report" -v version=ma
 has_line() { check "made-up page: $1" grep -q -F "$2" "$folder/made.html"; }
 has_line "an order that is met" "<td>a<td>8<td>1.00<td>1.50<td>at least 0.9: met<"
 has_line "an order that is missed" "<td>b<td>16<td>1.00<td>1.00<td>at least 1.5: <b class=bad>missed<"
+has_line "a high order now and then is no order" "<td>d<td>8<td>1.00<td>-0.50<td>at least 0.9: <b class=bad>missed<"
 has_line "another one" "<td>quas<td>4<td>0.41<td>0.41<td>at least 0.9: <b class=bad>missed<"
 # the front: quas from 0.5 and 1 s, a from 2 and 4 s, c from 100 s: a has log(100/2) of log(100/0.5)
 has_line "the scheme of most of the time" "Worth it: a</b>, which has the least error over 74 % of the times from 0.5 to 100 s"
