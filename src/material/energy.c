@@ -19,8 +19,7 @@ void law_energy_before(const struct law_batch *batch)
         batch->work[j] = stress_work(batch, j);
 }
 
-THREADS_VECTORISED
-void law_energy_after(const struct law_batch *batch)
+THREADS_INLINE void energy_after(const struct law_batch *batch, bool is_viscous)
 {
     const double size = batch->cell_size;
     const double quadratic = batch->bulk_quadratic * size * size / (batch->time_step * batch->time_step);
@@ -28,16 +27,28 @@ void law_energy_after(const struct law_batch *batch)
     const double linear = batch->bulk_linear * size * batch->material->viscous_speed / batch->time_step;
 #pragma omp simd
     for (int j = 0; j < batch->count; j++) {
-        double trace = batch->trace[j];
-        double compression = trace < 0 ? trace : 0;
-        double mean = batch->stress[0][j] + batch->stress[1][j] + batch->stress[2][j];
-        double density = batch->mass[j] / batch->volume[j];
-        double pressure = density * compression * (quadratic * compression - linear);
-        double viscous = mean < 0 ? pressure : 0;
-        double work = batch->work[j] + stress_work(batch, j) - counted * viscous * trace;
-        batch->viscous_pressure[j] = viscous;
+        double work = batch->work[j] + stress_work(batch, j);
+        if (is_viscous) {
+            double trace = batch->trace[j];
+            double compression = trace < 0 ? trace : 0;
+            double mean = batch->stress[0][j] + batch->stress[1][j] + batch->stress[2][j];
+            double density = batch->mass[j] / batch->volume[j];
+            double pressure = density * compression * (quadratic * compression - linear);
+            double viscous = mean < 0 ? pressure : 0;
+            work -= counted * viscous * trace;
+            batch->viscous_pressure[j] = viscous;
+        }
         batch->energy[j] += 0.25 * (batch->volume_before[j] + batch->volume[j]) * work;
     }
+}
+
+THREADS_VECTORISED
+void law_energy_after(const struct law_batch *batch)
+{
+    if (batch->viscous_pressure)
+        energy_after(batch, true);
+    else
+        energy_after(batch, false);
 }
 
 THREADS_VECTORISED

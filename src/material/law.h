@@ -52,7 +52,7 @@ struct law_batch {
     double *restrict terms[2];          /* with equation of state: its terms (eos.h); else room for the law */
     double *restrict stress[6];         /* in: rotated old stress; out: new stress */
     double *restrict energy;            /* internal energy */
-    double *restrict viscous_pressure;  /* artificial viscosity pressure q */
+    double *restrict viscous_pressure;  /* artificial viscosity pressure q; NULL where it is off and no law has an equation of state */
     double *restrict plastic_strain;
     double *restrict yield_stress;
     double *restrict mean_stress;       /* of laws with equation of state: minus pressure */

@@ -170,7 +170,7 @@ static double particle_forces(const struct mpm *mpm)
     double sum = 0;
     for (int32_t k = 0; k < mpm->cells->in_cells; k++) {
         double t[3][3];
-        mpm_force_stress(mpm, (size_t)mpm->cells->order[k], t);
+        mpm_force_stress(mpm, (size_t)mpm->cells->order[k], FORCE_ANY, t);
         for (int i = 0; i < 9; i++)
             sum += t[i / 3][i % 3] * t[i / 3][i % 3];
     }

@@ -4,39 +4,59 @@
 #include "mpm/linear.h"
 
 THREADS_VECTORISED
-static void scatter_all(struct mpm *mpm, int32_t b)
+static void scatter_stress(struct mpm *mpm, int32_t b)
 {
-    scatter_block(mpm, b, true, true, false, false, false);
+    scatter_block(mpm, b, true, true, false, false, false, FORCE_STRESS);
+}
+
+THREADS_VECTORISED
+static void scatter_viscous(struct mpm *mpm, int32_t b)
+{
+    scatter_block(mpm, b, true, true, false, false, false, FORCE_VISCOUS);
+}
+
+THREADS_VECTORISED
+static void scatter_any(struct mpm *mpm, int32_t b)
+{
+    scatter_block(mpm, b, true, true, false, false, false, FORCE_ANY);
 }
 
 THREADS_VECTORISED
 static void scatter_all_external(struct mpm *mpm, int32_t b)
 {
-    scatter_block(mpm, b, true, true, true, false, false);
+    scatter_block(mpm, b, true, true, true, false, false, FORCE_ANY);
 }
 
 THREADS_VECTORISED
 static void scatter_momentum(struct mpm *mpm, int32_t b)
 {
-    scatter_block(mpm, b, true, false, false, false, false);
+    scatter_block(mpm, b, true, false, false, false, false, FORCE_ANY);
 }
 
 THREADS_VECTORISED
 static void scatter_force(struct mpm *mpm, int32_t b)
 {
-    scatter_block(mpm, b, false, true, true, false, false);
+    scatter_block(mpm, b, false, true, true, false, false, FORCE_ANY);
 }
 
 THREADS_VECTORISED
 static void scatter_contact(struct mpm *mpm, int32_t b, bool momentum)
 {
-    scatter_block(mpm, b, momentum, true, true, true, true);
+    scatter_block(mpm, b, momentum, true, true, true, true, FORCE_ANY);
 }
 
 THREADS_VECTORISED
 static void scatter_special(struct mpm *mpm, int32_t b, bool momentum, bool force)
 {
-    scatter_block(mpm, b, momentum, force, true, false, true);
+    scatter_block(mpm, b, momentum, force, true, false, true, FORCE_ANY);
+}
+
+/* Momentum and force, and nothing else. */
+static void scatter_all(struct mpm *mpm, int32_t b)
+{
+    static void (*const passes[])(struct mpm *, int32_t) = {
+        [FORCE_STRESS] = scatter_stress, [FORCE_VISCOUS] = scatter_viscous, [FORCE_ANY] = scatter_any};
+    passes[mpm_force_parts(mpm)](mpm, b);
 }
 
 static void scatter(struct mpm *mpm, int32_t b, bool momentum, bool force)

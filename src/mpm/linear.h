@@ -60,7 +60,7 @@ static inline double mean_stress_of(const struct mpm *mpm, const int32_t *order,
         double mean = (store->real[COLUMN_STRESS][0][p] + store->real[COLUMN_STRESS][1][p] + store->real[COLUMN_STRESS][2][p]) / 3;
         if (store->real[COLUMN_RESIDUAL][0])
             mean -= (store->real[COLUMN_RESIDUAL][0][p] + store->real[COLUMN_RESIDUAL][1][p] + store->real[COLUMN_RESIDUAL][2][p]) / 3;
-        sum += store->real[COLUMN_VOLUME][0][p] * (mean - store->real[COLUMN_VISCOUS_PRESSURE][0][p]);
+        sum += store->real[COLUMN_VOLUME][0][p] * (mean - mpm_viscous_pressure(store, (size_t)p));
         volume += store->real[COLUMN_VOLUME][0][p];
     }
     return sum / volume;
@@ -69,7 +69,8 @@ static inline double mean_stress_of(const struct mpm *mpm, const int32_t *order,
 /* Mass, momentum and force of one cell's particles, and the normals that contact needs. `sum` holds
  * them in this order. `special`: xfer apic or bbar. */
 THREADS_INLINE void scatter_cell(const struct mpm *mpm, const int32_t *order, int32_t count, const double cell_low[3],
-                                 face sum[10][FACES], bool momentum, bool force, bool external, bool normals, bool special)
+                                 face sum[10][FACES], bool momentum, bool force, bool external, bool normals, bool special,
+                                 enum force_parts parts)
 {
     const struct store *store = mpm->store;
     const double inverse = 1 / mpm->cells->frame.size;
@@ -107,7 +108,7 @@ THREADS_INLINE void scatter_cell(const struct mpm *mpm, const int32_t *order, in
         }
         if (force) {
             double t[3][3];
-            mpm_force_stress(mpm, p, t);
+            mpm_force_stress(mpm, p, parts, t);
             if (special && mpm->scene->averages_volume) {
                 double change = cell_mean * -store->real[COLUMN_VOLUME][0][p] * inverse - (t[0][0] + t[1][1] + t[2][2]) / 3;
                 for (int a = 0; a < 3; a++)
@@ -160,12 +161,13 @@ THREADS_INLINE void prefetch_particles(const struct mpm *mpm, int32_t p, bool mo
         __builtin_prefetch(store->real[COLUMN_STRESS][a] + p + AHEAD);
     if (force) {
         __builtin_prefetch(store->real[COLUMN_VOLUME][0] + p + AHEAD);
-        __builtin_prefetch(store->real[COLUMN_VISCOUS_PRESSURE][0] + p + AHEAD);
+        if (store->real[COLUMN_VISCOUS_PRESSURE][0])
+            __builtin_prefetch(store->real[COLUMN_VISCOUS_PRESSURE][0] + p + AHEAD);
     }
 }
 
 THREADS_INLINE void scatter_block(struct mpm *mpm, int32_t b, bool momentum, bool force, bool external, bool normals,
-                                  bool special)
+                                  bool special, enum force_parts parts)
 {
     const struct cell_block *block = &mpm->cells->blocks[b];
     double(*patch)[PATCH_NODES] = patch_of(mpm, b);
@@ -184,7 +186,7 @@ THREADS_INLINE void scatter_block(struct mpm *mpm, int32_t b, bool momentum, boo
             cell_low[a] = chunk_cell_low(mpm, &chunk, c, a);
         prefetch_particles(mpm, mpm->cells->order[block->first + from], momentum, force);
         scatter_cell(mpm, mpm->cells->order + block->first + from, count, cell_low, sum, momentum, force, external,
-                     normals, special);
+                     normals, special, parts);
         add_corners(patch, grid_patch_corner(c, PATCH_EDGE, PATCH_EDGE, 0), momentum ? sum : sum + 4, fields);
     }
 }

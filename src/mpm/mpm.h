@@ -177,27 +177,49 @@ THREADS_INLINE void mpm_external_force(const struct mpm *mpm, size_t p, double f
     }
 }
 
+/* Artificial viscosity pressure of a particle; 0 where the scene does without. */
+THREADS_INLINE double mpm_viscous_pressure(const struct store *store, size_t p)
+{
+    return store->real[COLUMN_VISCOUS_PRESSURE][0] ? store->real[COLUMN_VISCOUS_PRESSURE][0][p] : 0;
+}
+
+/* What a particle's internal force is made of; a pass may be compiled for the first two, which are most scenes. */
+enum force_parts {
+    FORCE_STRESS,  /* Cauchy stress */
+    FORCE_VISCOUS, /* and artificial viscosity */
+    FORCE_ANY      /* residual stress too, or first Piola-Kirchhoff stress: the scene tells */
+};
+
+THREADS_INLINE enum force_parts mpm_force_parts(const struct mpm *mpm)
+{
+    if (mpm->is_total || mpm->store->real[COLUMN_RESIDUAL][0])
+        return FORCE_ANY;
+    return mpm->store->real[COLUMN_VISCOUS_PRESSURE][0] ? FORCE_VISCOUS : FORCE_STRESS;
+}
+
 /* Volume times stress over cell size of a particle, negative: what its gradients are multiplied with
  * in the forces (spec 6 C, 9.2). */
-THREADS_INLINE void mpm_force_stress(const struct mpm *mpm, size_t p, double t[3][3])
+THREADS_INLINE void mpm_force_stress(const struct mpm *mpm, size_t p, enum force_parts parts, double t[3][3])
 {
     const struct store *store = mpm->store;
     const double size = mpm->cells->frame.size;
-    if (mpm->is_total) {
+    if (parts == FORCE_ANY && mpm->is_total) {
         double scale = -store->real[COLUMN_MASS][0][p]
                      / (mpm->material_of_body[store->integer[COLUMN_BODY][p]]->density * size);
         for (int a = 0; a < 9; a++)
             t[a / 3][a % 3] = scale * store->real[COLUMN_FIRST_STRESS][a][p];
         return;
     }
-    double scale = -store->real[COLUMN_VOLUME][0][p] / size, viscous = store->real[COLUMN_VISCOUS_PRESSURE][0][p];
+    double scale = -store->real[COLUMN_VOLUME][0][p] / size;
+    double viscous = parts == FORCE_STRESS ? 0 : parts == FORCE_VISCOUS ? store->real[COLUMN_VISCOUS_PRESSURE][0][p]
+                                                                        : mpm_viscous_pressure(store, p);
     t[0][0] = scale * (store->real[COLUMN_STRESS][0][p] - viscous);
     t[1][1] = scale * (store->real[COLUMN_STRESS][1][p] - viscous);
     t[2][2] = scale * (store->real[COLUMN_STRESS][2][p] - viscous);
     t[1][2] = t[2][1] = scale * store->real[COLUMN_STRESS][3][p];
     t[0][2] = t[2][0] = scale * store->real[COLUMN_STRESS][4][p];
     t[0][1] = t[1][0] = scale * store->real[COLUMN_STRESS][5][p];
-    if (store->real[COLUMN_RESIDUAL][0]) {
+    if (parts == FORCE_ANY && store->real[COLUMN_RESIDUAL][0]) {
         for (int a = 0; a < 3; a++)
             t[a][a] -= scale * store->real[COLUMN_RESIDUAL][a][p];
         t[1][2] = t[2][1] -= scale * store->real[COLUMN_RESIDUAL][3][p];

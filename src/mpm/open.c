@@ -13,13 +13,24 @@
 
 /* --- particles --- */
 
+/* Laws with an equation of state compute artificial viscosity with the pressure, and keep it, be it zero. */
+static bool wants_viscosity(const struct scene *scene)
+{
+    bool wants = scene->bulk[0] != 0 || scene->bulk[1] != 0;
+    for (size_t i = 0; i < scene->n_materials; i++)
+        wants = wants || scene->materials[i].material.law->needs_eos;
+    return wants;
+}
+
 static uint64_t wanted_columns(const struct scene *scene)
 {
     uint64_t wanted = 0;
     static const enum column always[] = {COLUMN_POSITION, COLUMN_VELOCITY, COLUMN_STRESS, COLUMN_VOLUME, COLUMN_MASS,
-                                         COLUMN_ENERGY, COLUMN_VISCOUS_PRESSURE, COLUMN_ID, COLUMN_BODY};
+                                         COLUMN_ENERGY, COLUMN_ID, COLUMN_BODY};
     for (size_t i = 0; i < sizeof always / sizeof always[0]; i++)
         wanted |= column_bit(always[i]);
+    if (wants_viscosity(scene))
+        wanted |= column_bit(COLUMN_VISCOUS_PRESSURE);
     for (size_t i = 0; i < scene->n_materials; i++)
         for (const enum column *c = scene->materials[i].material.law->columns; *c != COLUMN_NONE; c++)
             wanted |= column_bit(*c);

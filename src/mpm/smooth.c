@@ -150,7 +150,7 @@ THREADS_INLINE void scatter_particle(const struct mpm *mpm, const struct workspa
     }
     if (force) {
         double stress[3][3], external[3];
-        mpm_force_stress(mpm, p, stress);
+        mpm_force_stress(mpm, p, FORCE_ANY, stress);
         for (int a = 0; a < 3; a++) {
             gift.x[a] = slope * stress[a][0];
             gift.y[a] = along * stress[a][1];

@@ -127,7 +127,7 @@ static void give_particle(const struct mpm *mpm, struct workspace *w, int32_t j,
         double load[3] = {0}, stress[3][3];
         if (mpm->has_external_force)
             mpm_external_force(mpm, p, load);
-        mpm_force_stress(mpm, p, stress);
+        mpm_force_stress(mpm, p, FORCE_ANY, stress);
         for (int a = 0; a < 3; a++)
             *next++ = load[a];
         for (int a = 0; a < 9; a++)
