@@ -62,6 +62,8 @@ static void print_heat(const struct sph *sph, FILE *stream)
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         if (rows[i].value != 0)
             fprintf(stream, "; %s %.6E", rows[i].name, rows[i].value);
+    if (budget->evaporated_mass > 0)
+        fprintf(stream, "; mass of the vapour %.6E", budget->evaporated_mass);
     fprintf(stream, "; not accounted for: %.1e of it\n", sph_heat_error(sph));
 }
 
@@ -74,7 +76,7 @@ void summary_sph_end(const struct sph *sph, const struct timers *timers, double 
         print_heat(sph, stream);
     fprintf(stream, "%s after %ld steps at time %.6E: ", summary_ending(status), sph->step, sph->time);
     if (budget->removed > 0)
-        fprintf(stream, "%ld particles left the grid and are removed", budget->removed);
+        fprintf(stream, "%ld particles left the grid and are removed, with mass %.3g", budget->removed, budget->removed_mass);
     else
         fprintf(stream, "no particle lost");
     fprintf(stream, ", density within %.2g %% and %.2g %% of its reference\n", 100 * (budget->least_density_ratio - 1),

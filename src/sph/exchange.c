@@ -13,8 +13,7 @@ static const struct {
     size_t offset, size;
 } fields[] = {
     FIELD(step),       FIELD(time),         FIELD(time_step),    FIELD(taken_step), FIELD(first_time_step),
-    FIELD(stable_step), FIELD(sound_speed), FIELD(updates),     FIELD(budget),     FIELD(start_energy),
-    FIELD(start_heat), FIELD(start_momentum),
+    FIELD(stable_step), FIELD(sound_speed), FIELD(updates),     FIELD(budget),     FIELD(start_heat),
 };
 
 void sph_exchange(struct sph *sph, struct checkpoint *checkpoint)

@@ -12,8 +12,6 @@ static const double LEAST_DETERMINANT = 0.05;
 static const double INSIDE = 0.95;
 /* Shifting moves no farther in a step, in spacings. */
 static const double LARGEST_SHIFT = 0.05;
-/* r^2 in the viscous force of Monaghan and Gingold is at least this times h^2. */
-static const double LEAST_SQUARE = 1e-6;
 
 void flow_prepare(struct sph *sph)
 {
@@ -220,7 +218,7 @@ THREADS_INLINE void force_on(const struct sph *sph, size_t a, int dimension, boo
     const struct neighbour_lists *near = &sph->neighbours->near;
     const struct sph_columns *c = &sph->columns;
     const bool is_symmetric = sph->words->pressure == PRESSURE_SYMMETRIC, is_morris = sph->words->viscosity == VISCOSITY_MORRIS;
-    const double least = LEAST_SQUARE * sph->smoothing * sph->smoothing, own_shepard = c->shepard[a], viscosity = c->viscosity[a];
+    const double least = PAIR_LEAST_SQUARE * sph->smoothing * sph->smoothing, own_shepard = c->shepard[a], viscosity = c->viscosity[a];
     const bool cuts = sph->words->cuts_tension && c->pressure[a] < 0 && own_shepard > INSIDE;
     const double own_pressure = cuts ? -c->pressure[a] : c->pressure[a];
     double force[3] = {0};

@@ -6,7 +6,7 @@
  * would have at that place if the line from the particle through the wall's surface went on. The surface lies half
  * a spacing before the outermost layer of the wall's particles. */
 #include "base/memory.h"
-#include "sph/sph.h"
+#include "sph/pair.h"
 
 #include <math.h>
 
@@ -23,8 +23,6 @@ static const double LARGEST_RATIO = 1.5;
 static const double ASIDE = 0.8;
 /* Relaxation of the excess of density of what has melted takes so many times h/c0 (spec 3.3). */
 static const double RELAXATION = 20;
-/* r^2 in the viscous force of Monaghan and Gingold is at least this times h^2. */
-static const double LEAST_SQUARE = 1e-6;
 
 /* A particle beside a wall of given temperature, and what heat comes from there. */
 struct contact {
@@ -120,6 +118,7 @@ struct conduction {
     const int32_t *state, *list;
     const int64_t *first;
     double inverse_reach, slope, lattice_factor;
+    double period; /* along x; 0: none */
     double *rate;
 };
 
@@ -127,34 +126,35 @@ struct conduction {
  * are the same for all pairs. The kernel is cut at its end by a largest value, not by a branch, so that batches run in
  * vectors; each product has its factors in an order that a and b share, so that pairs are antisymmetric to the last bit. */
 THREADS_INLINE void heat_of_pairs(const struct conduction *job, size_t a, const int32_t *list, int count, int dimension,
-                                  bool varies, bool corrects, double *heat)
+                                  bool varies, bool is_general, double *heat)
 {
     const double xa = job->x[0][a], ya = job->x[1][a], za = job->x[2][a];
     const double ta = job->temperature[a], ka = job->conductivity[a], va = job->volume[a], ha = varies ? job->smoothing[a] : 0;
-    const bool is_solid = corrects && job->state[a] == SPH_SOLID;
+    const bool is_solid = is_general && job->state[a] == SPH_SOLID;
     for (int n = 0; n < count; n++) {
         const int32_t b = list[n];
-        const double dx = job->x[0][b] - xa, dy = job->x[1][b] - ya, dz = dimension == 3 ? job->x[2][b] - za : 0;
+        const double dx = is_general ? pair_shorter(job->x[0][b] - xa, job->period) : job->x[0][b] - xa;
+        const double dy = job->x[1][b] - ya, dz = dimension == 3 ? job->x[2][b] - za : 0;
         const double square = dx * dx + dy * dy + dz * dz, kb = job->conductivity[b];
         const double inverse = varies ? 1 / (ha + job->smoothing[b]) : job->inverse_reach;
         const double cut = 1 - sqrt(square) * inverse, a1 = cut > 0 ? cut : 0;
         double weight = (va * job->volume[b]) * (ka * kb / (ka + kb)) * (a1 * a1 * a1);
         if (varies) /* alpha/h^2 over that of the start: 1/h to the power D + 2 */
             weight *= (inverse * inverse) * (inverse * inverse) * (dimension == 3 ? inverse : 1);
-        if (corrects)
+        if (is_general)
             weight *= is_solid && job->state[b] == SPH_SOLID ? job->lattice_factor : 1;
         heat[n] = weight * (job->temperature[b] - ta);
     }
 }
 
-THREADS_INLINE void conduct(const struct conduction *job, size_t from, size_t to, int dimension, bool varies, bool corrects)
+THREADS_INLINE void conduct(const struct conduction *job, size_t from, size_t to, int dimension, bool varies, bool is_general)
 {
     for (size_t a = from; a < to; a++) {
         double heat[BATCH], sums[LANES] = {0};
         const int64_t end = job->conductivity[a] > 0 ? job->first[a + 1] : job->first[a];
         for (int64_t start = job->first[a]; start < end; start += BATCH) {
             const int count = end - start < BATCH ? (int)(end - start) : BATCH;
-            heat_of_pairs(job, a, job->list + start, count, dimension, varies, corrects, heat);
+            heat_of_pairs(job, a, job->list + start, count, dimension, varies, is_general, heat);
             int n = 0;
             for (; n + LANES <= count; n += LANES)
                 for (int l = 0; l < LANES; l++)
@@ -180,13 +180,13 @@ static void conduct_solid(const struct conduction *job, size_t from, size_t to)
 }
 
 THREADS_VECTORISED
-static void conduct_flat_corrected(const struct conduction *job, size_t from, size_t to)
+static void conduct_flat_general(const struct conduction *job, size_t from, size_t to)
 {
     conduct(job, from, to, 2, false, true);
 }
 
 THREADS_VECTORISED
-static void conduct_solid_corrected(const struct conduction *job, size_t from, size_t to)
+static void conduct_solid_general(const struct conduction *job, size_t from, size_t to)
 {
     conduct(job, from, to, 3, false, true);
 }
@@ -205,11 +205,11 @@ static void conduct_solid_varying(const struct conduction *job, size_t from, siz
 
 static void conduct_portion(const struct sph *sph, const struct conduction *job, size_t from, size_t to)
 {
-    const bool is_flat = sph->dimension == 2, corrects = sph->words->corrects_lattice;
+    const bool is_flat = sph->dimension == 2, is_general = sph->words->corrects_lattice || sph->period > 0;
     if (sph->words->varies_smoothing)
         (is_flat ? conduct_flat_varying : conduct_solid_varying)(job, from, to);
-    else if (corrects)
-        (is_flat ? conduct_flat_corrected : conduct_solid_corrected)(job, from, to);
+    else if (is_general)
+        (is_flat ? conduct_flat_general : conduct_solid_general)(job, from, to);
     else
         (is_flat ? conduct_flat : conduct_solid)(job, from, to);
 }
@@ -219,7 +219,7 @@ static struct conduction conduction_of(const struct sph *sph)
     const struct sph_columns *c = &sph->columns;
     struct conduction job = {{c->x[0], c->x[1], c->x[2]}, c->temperature, c->conductivity, c->volume, c->smoothing, c->state,
                              sph->neighbours->near.list, sph->neighbours->near.first, 0.5 * sph->kernel.inverse,
-                             -4 * sph->kernel.slope, sph->words->corrects_lattice ? sph->heat->lattice_factor : 1, c->heat_rate};
+                             -4 * sph->kernel.slope, sph->words->corrects_lattice ? sph->heat->lattice_factor : 1, sph->period, c->heat_rate};
     if (sph->words->varies_smoothing) /* 1/(2h) of each pair is in the loop */
         job.slope *= pow(2 * sph->smoothing, sph->dimension + 2);
     return job;
@@ -262,22 +262,10 @@ static void find_contacts(struct sph *sph, struct sph_heat *heat)
     }
 }
 
-/* The way from b to a, and its square. */
-static double way_of(const struct sph *sph, size_t a, size_t b, double way[3])
+/* A pair within reach of the kernel, in loops that are not hot. */
+static bool find_pair(const struct sph *sph, size_t a, size_t b, struct pair *pair)
 {
-    double square = 0;
-    for (int i = 0; i < 3; i++) {
-        way[i] = i < sph->dimension ? sph->columns.x[i][a] - sph->columns.x[i][b] : 0;
-        square += way[i] * way[i];
-    }
-    return square;
-}
-
-static struct kernel kernel_of_pair(const struct sph *sph, size_t a, size_t b)
-{
-    if (!sph->words->varies_smoothing)
-        return sph->kernel;
-    return kernel_of(0.5 * (sph->columns.smoothing[a] + sph->columns.smoothing[b]), sph->dimension);
+    return pair_of(sph, a, b, sph->dimension, sph->words->varies_smoothing, pair);
 }
 
 /* Direction from the wall to particle a: minus the gradient of what the wall fills. False where it has none. */
@@ -288,15 +276,13 @@ static bool wall_direction(const struct sph *sph, size_t a, double normal[3])
     normal[0] = normal[1] = normal[2] = 0;
     for (int64_t n = near->first[a]; n < near->first[a + 1]; n++) {
         const size_t b = (size_t)near->list[n];
-        double way[3];
-        const double square = way_of(sph, a, b, way);
-        const struct kernel kernel = kernel_of_pair(sph, a, b);
-        if (!warm_wall(sph, b) || square >= kernel.reach2)
+        struct pair pair;
+        if (!warm_wall(sph, b) || !find_pair(sph, a, b, &pair))
             continue;
-        const double weight = -sph->columns.volume[b] * kernel_slope(&kernel, sqrt(square));
-        scale += weight * sqrt(square);
+        const double weight = -sph->columns.volume[b] * pair.slope;
+        scale += weight * sqrt(pair.square);
         for (int i = 0; i < 3; i++)
-            normal[i] += weight * way[i];
+            normal[i] += weight * pair.d[i];
     }
     const double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     if (!(length > 0.01 * scale))
@@ -314,10 +300,10 @@ static double wall_distance(const struct sph *sph, size_t a, const double normal
     const double aside = ASIDE * sph->spacing;
     double least = INFINITY;
     for (int64_t n = near->first[a]; n < near->first[a + 1]; n++) {
-        double way[3];
-        const double square = way_of(sph, a, (size_t)near->list[n], way);
-        const double height = way[0] * normal[0] + way[1] * normal[1] + way[2] * normal[2];
-        if (warm_wall(sph, (size_t)near->list[n]) && height > 0 && square - height * height < aside * aside)
+        struct pair pair;
+        pair_way(sph, a, (size_t)near->list[n], sph->dimension, &pair);
+        const double height = pair_dot(pair.d, normal, 3);
+        if (warm_wall(sph, (size_t)near->list[n]) && height > 0 && pair.square - height * height < aside * aside)
             least = fmin(least, height);
     }
     return fmax(isfinite(least) ? least - 0.5 * sph->spacing : 0, 0.5 * sph->spacing);
@@ -334,17 +320,16 @@ static double heat_from_walls(const struct sph *sph, size_t a)
     for (int64_t n = near->first[a]; n < near->first[a + 1]; n++) {
         const size_t b = (size_t)near->list[n];
         const struct scene_wall *wall = warm_wall(sph, b);
-        const struct kernel kernel = kernel_of_pair(sph, a, b);
-        double way[3], ratio = 1;
-        const double square = way_of(sph, a, b, way);
-        if (!wall || square >= kernel.reach2)
+        double ratio = 1;
+        struct pair pair;
+        if (!wall || !find_pair(sph, a, b, &pair))
             continue;
         if (has_direction) {
-            const double depth = way[0] * normal[0] + way[1] * normal[1] + way[2] * normal[2] - distance;
+            const double depth = pair_dot(pair.d, normal, 3) - distance;
             ratio = fmin(fmax(depth, 0.5 * sph->spacing) / distance, LARGEST_RATIO);
         }
         const double change = (wall->temperature - c->temperature[a]) * (1 + ratio);
-        sum -= c->volume[b] * change * kernel_slope(&kernel, sqrt(square));
+        sum -= c->volume[b] * change * pair.slope;
     }
     const bool is_corrected = sph->words->corrects_lattice && c->state[a] == SPH_SOLID;
     return 2 * c->volume[a] * c->conductivity[a] * sum * (is_corrected ? sph->heat->lattice_factor : 1);
@@ -373,23 +358,23 @@ static double viscous_heat(const struct sph *sph, size_t a)
     const struct neighbour_lists *near = &sph->neighbours->near;
     const struct sph_columns *c = &sph->columns;
     const bool is_morris = sph->words->viscosity == VISCOSITY_MORRIS;
-    const double least = LEAST_SQUARE * sph->smoothing * sph->smoothing, own = c->viscosity[a];
+    const double least = PAIR_LEAST_SQUARE * sph->smoothing * sph->smoothing, own = c->viscosity[a];
     double sum = 0;
     for (int64_t n = near->first[a]; n < near->first[a + 1]; n++) {
         const size_t b = (size_t)near->list[n];
-        double way[3], along = 0, speed = 0;
-        const double square = way_of(sph, a, b, way), both = own + c->viscosity[b];
-        const struct kernel kernel = kernel_of_pair(sph, a, b);
-        if (square >= kernel.reach2 || !(both > 0))
+        double along = 0, speed = 0;
+        struct pair pair;
+        const double both = own + c->viscosity[b];
+        if (!(both > 0) || !find_pair(sph, a, b, &pair))
             continue;
         for (int i = 0; i < sph->dimension; i++) {
             const double u = sph->seen[i][a] - sph->seen[i][b];
-            along += u * way[i];
+            along += u * pair.d[i];
             speed += u * u;
         }
         const double mean = 2 * own * c->viscosity[b] / both;
-        const double shear = is_morris ? 2 * speed : 2 * (sph->dimension + 2) * along * along / (square + least);
-        sum -= 0.5 * c->volume[a] * c->volume[b] * mean * shear * kernel_slope(&kernel, sqrt(square));
+        const double shear = is_morris ? 2 * speed : 2 * (sph->dimension + 2) * along * along / (pair.square + least);
+        sum -= 0.5 * c->volume[a] * c->volume[b] * mean * shear * pair.slope;
     }
     return sum;
 }

@@ -346,10 +346,7 @@ struct sph *sph_open(struct scene *scene, struct timers *timers, struct diagnost
         sph_share_always(sph);
     start_densities(sph);
     budget_update(sph);
-    sph->start_energy = sph->budget.kinetic + sph->budget.internal;
     sph->start_heat = sph->budget.heat;
-    for (int a = 0; a < 3; a++)
-        sph->start_momentum[a] = sph->budget.momentum[a];
     sph->first_time_step = sph->time_step = limits_time_step(sph);
     return sph;
 }

@@ -12,16 +12,20 @@ struct pair {
     double d[3], square, value, slope;
 };
 
+/* r^2 in the viscous force of Monaghan and Gingold is at least this times h^2. */
+#define PAIR_LEAST_SQUARE 1e-6
+
+/* A way along x, in a scene with a period across its ends where that is shorter. */
+THREADS_INLINE double pair_shorter(double d, double period)
+{
+    return period == 0 ? d : d > 0.5 * period ? d - period : d < -0.5 * period ? d + period : d;
+}
+
 /* The way from b to a and its square; across the ends of a periodic scene the shorter one. */
 THREADS_INLINE void pair_way(const struct sph *sph, size_t a, size_t b, int dimension, struct pair *pair)
 {
     double *const *x = sph->columns.x;
-    double d = x[0][a] - x[0][b];
-    if (sph->period > 0) {
-        const double half = 0.5 * sph->period;
-        d = d > half ? d - sph->period : d < -half ? d + sph->period : d;
-    }
-    pair->d[0] = d;
+    pair->d[0] = pair_shorter(x[0][a] - x[0][b], sph->period);
     pair->d[1] = x[1][a] - x[1][b];
     pair->d[2] = dimension == 3 ? x[2][a] - x[2][b] : 0;
     pair->square = pair->d[0] * pair->d[0] + pair->d[1] * pair->d[1] + pair->d[2] * pair->d[2];

@@ -102,7 +102,7 @@ struct sph {
     double updates;     /* particles that took part, summed over steps */
     struct sph_budget budget;
     struct sph_powers powers;
-    double start_energy, start_heat, start_momentum[3];
+    double start_heat;
 
     /* The particles of the surface's band, in memory order (surface.c). */
     int32_t *band;

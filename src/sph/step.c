@@ -16,6 +16,14 @@ static void move_neighbours(struct sph *sph)
         sph_bind(sph);
 }
 
+/* Without heat and swelling they stay as they are since the start. */
+static void find_properties(struct sph *sph)
+{
+    timers_enter(sph->timers, PHASE_HEAT);
+    if (sph->words->heat != HEAT_OFF || sph->words->n_swellings > 0)
+        heat_properties(sph);
+}
+
 /* Density and pressure at the places of now, from the velocities since the step before; walls follow. */
 static void find_pressure(struct sph *sph)
 {
@@ -81,8 +89,7 @@ static void remove_outsiders(struct sph *sph)
 void sph_step(struct sph *sph)
 {
     move_neighbours(sph);
-    timers_enter(sph->timers, PHASE_HEAT);
-    heat_properties(sph);
+    find_properties(sph);
     find_pressure(sph);
     find_forces(sph);
     find_heat(sph);
