@@ -13,6 +13,37 @@ static const double INSIDE = 0.95;
 /* Shifting moves no farther in a step, in spacings. */
 static const double LARGEST_SHIFT = 0.05;
 
+/* Particles of a state tell all within their reach; threads that meet write the same. */
+static void tell_neighbours(struct sph *sph, int32_t state, unsigned char what)
+{
+    const struct neighbour_lists *near = &sph->neighbours->near;
+    const size_t count = sph->store->count;
+#pragma omp parallel for schedule(dynamic, 512) if (sph->is_shared)
+    for (size_t a = 0; a < count; a++) {
+        if (sph->columns.state[a] != state || !sph_moves(sph, a))
+            continue;
+        for (int64_t n = near->first[a]; n < near->first[a + 1]; n++) {
+            unsigned char *told = &sph->beside[near->list[n]], known;
+#pragma omp atomic read
+            known = *told;
+            if (known == what)
+                continue;
+#pragma omp atomic write
+            *told = what;
+        }
+    }
+}
+
+void flow_surroundings(struct sph *sph)
+{
+    if (!sph->has_fixed)
+        return;
+    memset(sph->beside, BESIDE_NOTHING, sph->store->count);
+    if (sph->has_moving_walls)
+        tell_neighbours(sph, SPH_WALL, BESIDE_WALL);
+    tell_neighbours(sph, SPH_FLUID, BESIDE_FLUID);
+}
+
 void flow_prepare(struct sph *sph)
 {
     const struct sph_columns *c = &sph->columns;
@@ -167,8 +198,9 @@ THREADS_INLINE void mirror(const struct sph *sph, size_t w, int dimension, bool 
 {
     const struct neighbour_lists *near = &sph->neighbours->near;
     const struct sph_columns *c = &sph->columns;
+    const int64_t end = sph->beside[w] == BESIDE_FLUID ? near->first[w + 1] : near->first[w];
     double sum = 0, pressure = 0, viscosity = 0, velocity[3] = {0};
-    for (int64_t n = near->first[w]; n < near->first[w + 1]; n++) {
+    for (int64_t n = near->first[w]; n < end; n++) {
         const size_t b = (size_t)near->list[n];
         struct pair pair;
         if (c->state[b] != SPH_FLUID || !pair_of(sph, w, b, dimension, varies, &pair))

@@ -24,10 +24,12 @@ static const double ASIDE = 0.8;
 /* Relaxation of the excess of density of what has melted takes so many times h/c0 (spec 3.3). */
 static const double RELAXATION = 20;
 
-/* A particle beside a wall of given temperature, and what heat comes from there. */
+/* A particle beside walls of given temperature: its conductance to them over its own volume and conductivity, that times
+ * their temperatures, and the heat that comes from there. For a solid beside walls that stay both hold. */
 struct contact {
     int32_t particle;
-    double heat;
+    bool holds;
+    double conductance, warmth, heat;
 };
 
 struct sph_heat {
@@ -258,7 +260,7 @@ static void find_contacts(struct sph *sph, struct sph_heat *heat)
         if (!has_warm_wall(sph, p))
             continue;
         heat->contacts = memory_grow(heat->contacts, &heat->contacts_capacity, heat->n_contacts + 1, sizeof *heat->contacts, "walls");
-        heat->contacts[heat->n_contacts++].particle = (int32_t)p;
+        heat->contacts[heat->n_contacts++] = (struct contact){.particle = (int32_t)p};
     }
 }
 
@@ -309,30 +311,43 @@ static double wall_distance(const struct sph *sph, size_t a, const double normal
     return fmax(isfinite(least) ? least - 0.5 * sph->spacing : 0, 0.5 * sph->spacing);
 }
 
-/* Heat that flows from walls of given temperature into particle a. */
-static double heat_from_walls(const struct sph *sph, size_t a)
+/* Conductance of the contact of particle a with the walls, from the places of now. */
+static void find_conductance(const struct sph *sph, size_t a, struct contact *contact)
 {
     const struct neighbour_lists *near = &sph->neighbours->near;
-    const struct sph_columns *c = &sph->columns;
-    double normal[3], sum = 0;
+    double normal[3];
     const bool has_direction = wall_direction(sph, a, normal);
     const double distance = has_direction ? wall_distance(sph, a, normal) : 0;
+    contact->conductance = contact->warmth = 0;
+    contact->holds = sph->columns.state[a] == SPH_SOLID;
     for (int64_t n = near->first[a]; n < near->first[a + 1]; n++) {
         const size_t b = (size_t)near->list[n];
         const struct scene_wall *wall = warm_wall(sph, b);
         double ratio = 1;
         struct pair pair;
-        if (!wall || !find_pair(sph, a, b, &pair))
+        if (!wall)
+            continue;
+        contact->holds = contact->holds && !sph_wall_moves(wall);
+        if (!find_pair(sph, a, b, &pair))
             continue;
         if (has_direction) {
             const double depth = pair_dot(pair.d, normal, 3) - distance;
             ratio = fmin(fmax(depth, 0.5 * sph->spacing) / distance, LARGEST_RATIO);
         }
-        const double change = (wall->temperature - c->temperature[a]) * (1 + ratio);
-        sum -= c->volume[b] * change * pair.slope;
+        const double conductance = -2 * sph->columns.volume[b] * (1 + ratio) * pair.slope;
+        contact->conductance += conductance;
+        contact->warmth += conductance * wall->temperature;
     }
-    const bool is_corrected = sph->words->corrects_lattice && c->state[a] == SPH_SOLID;
-    return 2 * c->volume[a] * c->conductivity[a] * sum * (is_corrected ? sph->heat->lattice_factor : 1);
+}
+
+/* Heat that flows from walls of given temperature into particle a. */
+static double heat_from_walls(const struct sph *sph, size_t a, struct contact *contact)
+{
+    const struct sph_columns *c = &sph->columns;
+    if (!contact->holds || c->state[a] != SPH_SOLID)
+        find_conductance(sph, a, contact);
+    const double factor = sph->words->corrects_lattice && c->state[a] == SPH_SOLID ? sph->heat->lattice_factor : 1;
+    return factor * c->volume[a] * c->conductivity[a] * (contact->warmth - contact->conductance * c->temperature[a]);
 }
 
 static double add_heat_from_walls(struct sph *sph, struct sph_heat *heat)
@@ -341,7 +356,7 @@ static double add_heat_from_walls(struct sph *sph, struct sph_heat *heat)
 #pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t i = 0; i < heat->n_contacts; i++) {
         const size_t p = (size_t)heat->contacts[i].particle;
-        heat->contacts[i].heat = sph->columns.state[p] == SPH_REMOVED ? 0 : heat_from_walls(sph, p);
+        heat->contacts[i].heat = sph->columns.state[p] == SPH_REMOVED ? 0 : heat_from_walls(sph, p, &heat->contacts[i]);
         sph->columns.heat_rate[p] += heat->contacts[i].heat;
     }
     for (size_t i = 0; i < heat->n_contacts; i++)

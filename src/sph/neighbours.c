@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sph/neighbours.h"
 #include "base/memory.h"
+#include "base/threads.h"
 #include "sph/state.h"
 
 #include <math.h>
@@ -22,6 +23,8 @@ struct neighbours *neighbours_open(struct store *store, int dimension, double re
         neighbours->wide.first = memory_array(store->count + 1, sizeof(int64_t), "neighbours");
     neighbours->cell_of = memory_array(store->count, sizeof(int32_t), "cells");
     neighbours->order = memory_array(store->count, sizeof(int32_t), "cells");
+    for (int a = 0; a < 3; a++)
+        neighbours->sorted[a] = memory_array(store->count, sizeof(double), "cells");
     return neighbours;
 }
 
@@ -42,6 +45,8 @@ void neighbours_close(struct neighbours *neighbours)
     memory_free(neighbours->cell_first);
     memory_free(neighbours->cell_of);
     memory_free(neighbours->order);
+    for (int a = 0; a < 3; a++)
+        memory_free(neighbours->sorted[a]);
     memory_free(neighbours);
 }
 
@@ -49,7 +54,7 @@ size_t neighbours_bytes(const struct neighbours *neighbours)
 {
     const size_t count = neighbours->store->count;
     return (neighbours->near.list_capacity + neighbours->wide.list_capacity) * sizeof(int32_t)
-         + (count + 1) * sizeof(int64_t) * (neighbours->wide.reach > 0 ? 2 : 1) + 2 * count * sizeof(int32_t)
+         + (count + 1) * sizeof(int64_t) * (neighbours->wide.reach > 0 ? 2 : 1) + count * (2 * sizeof(int32_t) + 3 * sizeof(double))
          + neighbours->cells_capacity * sizeof(int32_t);
 }
 
@@ -151,42 +156,81 @@ static void sort_into_cells(struct neighbours *neighbours)
 
 /* --- lists --- */
 
-/* A search: whose neighbours, within what distance, and where they are listed (NULL: only counted). */
+/* Squares of distances are found for so many particles at once. */
+enum { BLOCK = 64 };
+
+/* A search for the neighbours of one particle, near ones and, where there are such lists, all in reach of the wide ones. */
 struct search {
     const struct neighbours *neighbours;
-    size_t p;
-    double x[3], reach2;
-    int32_t *list;
-    int32_t count;
+    int32_t self;                /* its place in the order of cells */
+    double x[3], near2, far2;
+    int32_t *near, *wide;        /* where they are listed; near NULL: they are only counted */
+    int32_t near_count, wide_count;
 };
 
-/* Looks at the particles of cells from ... to of one row, which lie one behind the other, as seen from `shift` along x. */
-static void search_row(struct search *search, int from, int to, int j, int k, double shift)
+THREADS_INLINE void find_squares(const struct search *search, int32_t start, int count, double shift, double *square)
 {
-    const struct neighbours *neighbours = search->neighbours;
-    double *const *x = neighbours->store->real[COLUMN_LISTED_POSITION];
-    const bool is_flat = neighbours->dimension == 2;
-    const int32_t first = neighbours->cell_first[cell_at(neighbours, (int[]){from, j, k})];
-    const int32_t end = neighbours->cell_first[cell_at(neighbours, (int[]){to, j, k}) + 1];
-    for (int32_t n = first; n < end; n++) {
-        const int32_t q = neighbours->order[n];
-        const double d0 = x[0][q] + shift - search->x[0], d1 = x[1][q] - search->x[1], d2 = is_flat ? 0 : x[2][q] - search->x[2];
-        if (!(d0 * d0 + d1 * d1 + d2 * d2 < search->reach2) || (size_t)q == search->p)
-            continue;
-        if (search->list)
-            search->list[search->count] = q;
-        search->count++;
+    double *const *x = search->neighbours->sorted;
+    const double x0 = search->x[0] - shift, x1 = search->x[1], x2 = search->x[2];
+    const double *from0 = x[0] + start, *from1 = x[1] + start, *from2 = x[2] + start;
+    for (int i = 0; i < count; i++) {
+        const double d0 = from0[i] - x0, d1 = from1[i] - x1, d2 = from2[i] - x2;
+        square[i] = d0 * d0 + d1 * d1 + d2 * d2;
+    }
+    if (search->self >= start && search->self < start + count)
+        square[search->self - start] = INFINITY;
+}
+
+THREADS_INLINE void count_block(struct search *search, const double *square, int count)
+{
+    int32_t near = 0, wide = 0;
+    for (int i = 0; i < count; i++) {
+        near += square[i] < search->near2;
+        wide += square[i] < search->far2;
+    }
+    search->near_count += near;
+    search->wide_count += wide;
+}
+
+THREADS_INLINE void list_block(struct search *search, int32_t start, const double *square, int count)
+{
+    int found[BLOCK], n = 0;
+    for (int i = 0; i < count; i++) {
+        found[n] = i;
+        n += square[i] < search->far2;
+    }
+    for (int k = 0; k < n; k++) {
+        const int32_t q = search->neighbours->order[start + found[k]];
+        if (search->wide)
+            search->wide[search->wide_count++] = q;
+        if (square[found[k]] < search->near2)
+            search->near[search->near_count++] = q;
     }
 }
 
-/* Lists the neighbours of p, or only counts them where `list` is NULL; returns how many there are. */
-static int32_t list_one(const struct neighbours *neighbours, size_t p, double reach2, int32_t *list)
+/* Looks at the particles of cells from ... to of one row, which lie one behind the other, as seen from `shift` along x. */
+THREADS_INLINE void search_row(struct search *search, int from, int to, int j, int k, double shift)
 {
-    double *const *x = neighbours->store->real[COLUMN_LISTED_POSITION];
-    struct search search = {neighbours, p, {x[0][p], x[1][p], x[2][p]}, reach2, list, 0};
+    const struct neighbours *neighbours = search->neighbours;
+    const int32_t first = neighbours->cell_first[cell_at(neighbours, (int[]){from, j, k})];
+    const int32_t end = neighbours->cell_first[cell_at(neighbours, (int[]){to, j, k}) + 1];
+    for (int32_t start = first; start < end; start += BLOCK) {
+        double square[BLOCK];
+        const int count = end - start < BLOCK ? end - start : BLOCK;
+        find_squares(search, start, count, shift, square);
+        if (search->near)
+            list_block(search, start, square, count);
+        else
+            count_block(search, square, count);
+    }
+}
+
+THREADS_VECTORISED
+static void search_around(struct search *search, const int at[3])
+{
+    const struct neighbours *neighbours = search->neighbours;
     const int last = neighbours->cells[0] - 1;
-    int at[3], low[3], high[3];
-    find_cell(neighbours, p, at);
+    int low[3], high[3];
     for (int a = 0; a < 3; a++) {
         low[a] = at[a] > 0 ? at[a] - 1 : 0;
         high[a] = at[a] + 1 < neighbours->cells[a] ? at[a] + 1 : neighbours->cells[a] - 1;
@@ -194,32 +238,73 @@ static int32_t list_one(const struct neighbours *neighbours, size_t p, double re
     for (int k = low[2]; k <= high[2]; k++)
         for (int j = low[1]; j <= high[1]; j++) {
             if (neighbours->period > 0 && at[0] == 0)
-                search_row(&search, last, last, j, k, -neighbours->period);
-            search_row(&search, low[0], high[0], j, k, 0);
+                search_row(search, last, last, j, k, -neighbours->period);
+            search_row(search, low[0], high[0], j, k, 0);
             if (neighbours->period > 0 && at[0] == last)
-                search_row(&search, 0, 0, j, k, neighbours->period);
+                search_row(search, 0, 0, j, k, neighbours->period);
         }
-    return search.count;
 }
 
-static void make_lists(struct neighbours *neighbours, struct neighbour_lists *lists)
+/* Lists the neighbours of the particle at a place of the order, or only counts them (first[p + 1] of both lists). */
+static void search_for(struct neighbours *neighbours, int32_t self, bool only_counts)
 {
-    const struct store *store = neighbours->store;
-    const double reach = lists->reach + neighbours->skin, reach2 = reach * reach;
-    if (lists->reach <= 0)
+    struct neighbour_lists *near = &neighbours->near, *wide = &neighbours->wide;
+    const size_t p = (size_t)neighbours->order[self];
+    const double reach = near->reach + neighbours->skin, far = wide->reach > 0 ? wide->reach + neighbours->skin : reach;
+    struct search search = {.neighbours = neighbours, .self = self, .near2 = reach * reach, .far2 = far * far};
+    int at[3];
+    for (int a = 0; a < 3; a++)
+        search.x[a] = neighbours->sorted[a][self];
+    if (!only_counts) {
+        search.near = near->list + near->first[p];
+        search.wide = wide->reach > 0 ? wide->list + wide->first[p] : NULL;
+    }
+    find_cell(neighbours, p, at);
+    search_around(&search, at);
+    if (!only_counts)
         return;
+    near->first[p + 1] = search.near_count;
+    if (wide->reach > 0)
+        wide->first[p + 1] = search.wide_count;
+}
+
+/* Sums up the counts and makes room. */
+static void lay_lists(struct neighbour_lists *lists, size_t count)
+{
     lists->first[0] = 0;
-#pragma omp parallel for schedule(dynamic, 256) if (neighbours->is_shared)
-    for (size_t p = 0; p < store->count; p++)
-        lists->first[p + 1] = is_removed(store, p) ? 0 : list_one(neighbours, p, reach2, NULL);
-    for (size_t p = 0; p < store->count; p++)
+    for (size_t p = 0; p < count; p++)
         lists->first[p + 1] += lists->first[p];
-    lists->list = memory_grow(lists->list, &lists->list_capacity, (size_t)lists->first[store->count], sizeof(int32_t),
-                              "neighbours");
+    lists->list = memory_grow(lists->list, &lists->list_capacity, (size_t)lists->first[count] + 1, sizeof(int32_t), "neighbours");
+}
+
+/* Removed particles come last in the order: they have no neighbours and are none. */
+static void make_lists(struct neighbours *neighbours)
+{
+    const size_t count = neighbours->store->count;
+    const int32_t there = neighbours->cell_first[cell_count(neighbours)];
 #pragma omp parallel for schedule(dynamic, 256) if (neighbours->is_shared)
-    for (size_t p = 0; p < store->count; p++)
-        if (lists->first[p + 1] > lists->first[p])
-            list_one(neighbours, p, reach2, lists->list + lists->first[p]);
+    for (int32_t n = 0; n < there; n++)
+        search_for(neighbours, n, true);
+    for (size_t n = (size_t)there; n < count; n++) {
+        neighbours->near.first[neighbours->order[n] + 1] = 0;
+        if (neighbours->wide.reach > 0)
+            neighbours->wide.first[neighbours->order[n] + 1] = 0;
+    }
+    lay_lists(&neighbours->near, count);
+    if (neighbours->wide.reach > 0)
+        lay_lists(&neighbours->wide, count);
+#pragma omp parallel for schedule(dynamic, 256) if (neighbours->is_shared)
+    for (int32_t n = 0; n < there; n++)
+        search_for(neighbours, n, false);
+}
+
+/* Places in the order of cells; in two dimensions all have the same z. */
+static void sort_places(struct neighbours *neighbours)
+{
+    double *const *x = neighbours->store->real[COLUMN_LISTED_POSITION];
+    for (int a = 0; a < 3; a++)
+        for (size_t n = 0; n < neighbours->store->count; n++)
+            neighbours->sorted[a][n] = a < neighbours->dimension ? x[a][neighbours->order[n]] : 0;
 }
 
 static void build(struct neighbours *neighbours, bool sorts)
@@ -232,8 +317,8 @@ static void build(struct neighbours *neighbours, bool sorts)
         for (size_t p = 0; p < store->count; p++)
             neighbours->order[p] = (int32_t)p;
     }
-    make_lists(neighbours, &neighbours->near);
-    make_lists(neighbours, &neighbours->wide);
+    sort_places(neighbours);
+    make_lists(neighbours);
     neighbours->builds++;
 }
 

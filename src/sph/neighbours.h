@@ -24,6 +24,7 @@ struct neighbours {
     double period_low, period; /* along x; 0: none */
     struct neighbour_lists near, wide; /* wide.reach 0: there is none */
     int32_t *cell_first, *cell_of, *order;
+    double *sorted[3]; /* where particles were when they were listed, in this order */
     size_t cells_capacity;
     int cells[3];
     double low[3], cell_size[3];

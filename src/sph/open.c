@@ -286,8 +286,11 @@ static void choose_numbers(struct sph *sph)
     sph->needs_normals = needs_band(words) || words->shifting > 0;
     for (size_t p = 0; p < sph->store->count; p++)
         sph->has_fixed = sph->has_fixed || sph->columns.state[p] != SPH_FLUID;
-    for (size_t b = 0; b < sph->scene->n_bodies; b++) /* what is liquid now may solidify */
-        sph->has_fixed = sph->has_fixed || sph->bodies[b].properties->melts;
+    for (size_t b = 0; b < sph->scene->n_bodies; b++) {
+        const struct sph_body *body = &sph->bodies[b];
+        sph->has_fixed = sph->has_fixed || body->properties->melts; /* what is liquid now may solidify */
+        sph->has_moving_walls = sph->has_moving_walls || (body->wall && sph_wall_moves(body->wall));
+    }
 }
 
 static void create_work(struct sph *sph)
@@ -297,11 +300,15 @@ static void create_work(struct sph *sph)
                                &sph->seen[2], &sph->fluid_volume, &sph->excess, &sph->rate};
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
         *arrays[i] = memory_array(count, sizeof(double), "particles");
+    if (sph->has_fixed)
+        sph->beside = memory_array(count, sizeof *sph->beside, "walls");
     if (!needs_band(sph->words))
         return;
     sph->band = memory_array(count, sizeof *sph->band, "the surface");
     sph->is_kept = memory_array(count, sizeof *sph->is_kept, "the surface");
+    sph->ring = memory_array(count, sizeof *sph->ring, "the surface");
     sph->saw_motion = memory_array(count, sizeof *sph->saw_motion, "the surface");
+    sph->saw_wide_motion = memory_array(count, sizeof *sph->saw_wide_motion, "the surface");
 }
 
 /* Density where there is no pressure yet: that of the reference, changed so that pressure begins at 0. */
@@ -359,9 +366,12 @@ void sph_close(struct sph *sph)
                               sph->seen[2], sph->fluid_volume, sph->excess, sph->rate};
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
         memory_free(arrays[i]);
+    memory_free(sph->beside);
     memory_free(sph->band);
     memory_free(sph->is_kept);
+    memory_free(sph->ring);
     memory_free(sph->saw_motion);
+    memory_free(sph->saw_wide_motion);
     heat_free(sph);
     laser_free(sph);
     memory_free(sph->portions);

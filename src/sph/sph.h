@@ -91,6 +91,7 @@ struct sph {
     double courant;
     bool is_shared;             /* threads share the work: there is enough of it, or a number was asked for */
     bool has_fixed;             /* walls or solids */
+    bool has_moving_walls;
     bool needs_normals;         /* for surface forces, radiation, evaporation or shifting */
 
     long step;
@@ -108,13 +109,16 @@ struct sph {
     int32_t *band;
     size_t n_band;
     int32_t *is_kept;   /* per particle: has a normal good enough for a curvature */
-    unsigned char *saw_motion; /* per particle: it or one beside it moved when normals of walls and solids were made last */
+    unsigned char *ring;       /* per particle: what of the surface is found there */
+    /* Per particle: it or one beside it moved when normals of walls and solids were made last; as seen by the wide kernel. */
+    unsigned char *saw_motion, *saw_wide_motion;
     long normals_builds;       /* the builds of neighbours that this was with */
     double *work[3];    /* room for one number a particle */
 
     /* Made anew in each step, per particle (flow.c). */
     double *seen[3];       /* velocities that pairs see: of walls and solids first their own, for the forces the mirrored ones */
     double *fluid_volume;  /* volume of fluid; 0 for walls and solids */
+    unsigned char *beside; /* what moves within reach of walls and solids; NULL without them */
     double *excess;        /* density above the reference that gives pressure; 0 for walls and solids */
     double *rate;          /* of the density */
     struct sph_portion *portions; /* sums of portions of the particles (budget.c) */
@@ -134,6 +138,21 @@ void sph_share_always(struct sph *sph);
 /* One step. */
 void sph_step(struct sph *sph);
 
+/* What is within reach of a particle: nothing that moves, a wall that moves, fluid. */
+enum { BESIDE_NOTHING, BESIDE_WALL, BESIDE_FLUID };
+
+static inline bool sph_wall_moves(const struct scene_wall *wall)
+{
+    return wall->velocity[0] != 0 || wall->velocity[1] != 0 || wall->velocity[2] != 0;
+}
+
+/* Whether a particle is fluid, or of a wall that moves. */
+static inline bool sph_moves(const struct sph *sph, size_t p)
+{
+    const int32_t state = sph->columns.state[p];
+    return state == SPH_WALL ? sph_wall_moves(sph->bodies[sph->columns.body[p]].wall) : state == SPH_FLUID;
+}
+
 /* Points the columns of `sph` at those of the store; after each sorting. */
 void sph_bind(struct sph *sph);
 
@@ -143,6 +162,7 @@ void sph_bind(struct sph *sph);
 void heat_properties(struct sph *sph);
 
 void flow_prepare(struct sph *sph);   /* seen velocities, fluid volumes, excess */
+void flow_surroundings(struct sph *sph); /* what walls and solids are beside */
 void flow_gradients(struct sph *sph);
 void flow_density(struct sph *sph, double time_step);
 void flow_walls(struct sph *sph);

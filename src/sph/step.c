@@ -29,6 +29,7 @@ static void find_pressure(struct sph *sph)
 {
     timers_enter(sph->timers, PHASE_DENSITY);
     flow_prepare(sph);
+    flow_surroundings(sph);
     flow_gradients(sph);
     flow_density(sph, sph->words->freezes_flow ? 0 : sph->taken_step);
     flow_walls(sph);

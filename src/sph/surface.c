@@ -23,25 +23,11 @@ static const double MOST_FILLED = 0.97, LEAST_CORRECTION = 0.5;
 
 enum { KEPT = 1, THIN = 2 };
 
+/* What is found of a particle: nothing; the normal for its area, anew only where something around it moves; normal; its
+ * curvature too; all that a force takes. */
+enum { RING_NONE, RING_AREA, RING_NORMAL, RING_CURVATURE, RING_FORCE };
+
 /* --- who is looked at --- */
-
-static bool is_moving(const struct sph *sph, size_t b)
-{
-    const int32_t state = sph->columns.state[b];
-    if (state != SPH_WALL)
-        return state == SPH_FLUID;
-    const double *velocity = sph->bodies[sph->columns.body[b]].wall->velocity;
-    return velocity[0] != 0 || velocity[1] != 0 || velocity[2] != 0;
-}
-
-static bool sees_motion(const struct sph *sph, size_t a)
-{
-    const struct neighbour_lists *near = &sph->neighbours->near;
-    bool sees = is_moving(sph, a);
-    for (int64_t n = near->first[a]; n < near->first[a + 1] && !sees; n++)
-        sees = is_moving(sph, (size_t)near->list[n]);
-    return sees;
-}
 
 /* N of particle a with the kernel of the forces. */
 THREADS_INLINE void fixed_normal(const struct sph *sph, size_t a, int dimension, bool varies)
@@ -69,12 +55,12 @@ THREADS_INLINE void fixed_normals(struct sph *sph, int dimension, bool varies)
     const size_t count = sph->store->count;
 #pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t a = 0; a < count; a++) {
-        const bool is_fixed = state[a] == SPH_SOLID || state[a] == SPH_WALL, sees = !is_fixed || sees_motion(sph, a);
+        const bool is_fixed = state[a] == SPH_SOLID || state[a] == SPH_WALL;
+        const bool sees = !is_fixed || sph->beside[a] != BESIDE_NOTHING;
         if (is_fixed && (is_new || sees || sph->saw_motion[a]))
             fixed_normal(sph, a, dimension, varies);
         sph->saw_motion[a] = sees;
     }
-    sph->normals_builds = sph->neighbours->builds;
 }
 
 static bool is_strong(const struct sph *sph, size_t a)
@@ -84,10 +70,9 @@ static bool is_strong(const struct sph *sph, size_t a)
     return c->state[a] != SPH_REMOVED && (n0 * n0 + n1 * n1 + n2 * n2) * h * h > STRONG * STRONG;
 }
 
-/* Leaves 1 in work 0 for candidates, and their columns empty for all particles. */
+/* Leaves 1 in work 0 for candidates. */
 static void mark_candidates(struct sph *sph)
 {
-    const struct sph_columns *c = &sph->columns;
     const struct neighbours *neighbours = sph->neighbours;
     const bool is_far = neighbours->wide.reach > LONGEST_RATIO * neighbours->near.reach;
     const struct neighbour_lists *lists = is_far ? &neighbours->wide : &neighbours->near;
@@ -100,36 +85,97 @@ static void mark_candidates(struct sph *sph)
         bool is_candidate = sph->is_kept[a];
         for (int64_t n = lists->first[a]; n < lists->first[a + 1] && !is_candidate; n++)
             is_candidate = sph->is_kept[lists->list[n]];
-        sph->work[0][a] = is_candidate && c->state[a] != SPH_REMOVED;
-        for (int i = 0; i < 3; i++)
-            c->wide_normal[i][a] = 0;
-        c->wide_shepard[a] = c->curvature[a] = 0;
+        sph->work[0][a] = is_candidate && sph->columns.state[a] != SPH_REMOVED;
     }
 }
 
-/* The band lists candidates in the order of memory. */
+/* Candidates that the wide kernel of a particle of one ring reaches are at least of the next one. Threads that meet write
+ * the same. */
+static void spread(struct sph *sph, unsigned char from, unsigned char to)
+{
+    const struct neighbour_lists *wide = &sph->neighbours->wide;
+    const size_t count = sph->store->count;
+    unsigned char *ring = sph->ring;
+#pragma omp parallel for schedule(dynamic, 512) if (sph->is_shared)
+    for (size_t a = 0; a < count; a++) {
+        unsigned char own, other;
+#pragma omp atomic read
+        own = ring[a];
+        for (int64_t n = wide->first[a]; own == from && n < wide->first[a + 1]; n++) {
+            const int32_t b = wide->list[n];
+#pragma omp atomic read
+            other = ring[b];
+            if (other >= to || !(sph->work[0][b] > 0))
+                continue;
+#pragma omp atomic write
+            ring[b] = to;
+        }
+    }
+}
+
+/* Forces act on the fluid alone: what it does not see needs no curvature and no normal, but where it radiates. */
+static void find_rings(struct sph *sph)
+{
+    const struct scene_sph *words = sph->words;
+    const unsigned char rest = words->surface == SURFACE_THESIS ? RING_NORMAL : words->radiates ? RING_AREA : RING_NONE;
+    const size_t count = sph->store->count;
+#pragma omp parallel for schedule(static) if (sph->is_shared)
+    for (size_t a = 0; a < count; a++)
+        sph->ring[a] = !(sph->work[0][a] > 0) ? RING_NONE : sph->columns.state[a] == SPH_FLUID ? RING_FORCE : rest;
+    if (words->surface == SURFACE_OFF)
+        return;
+    spread(sph, RING_FORCE, RING_CURVATURE);
+    spread(sph, RING_CURVATURE, RING_NORMAL);
+}
+
+/* The band lists what is in a ring in the order of memory; the columns of the others are empty. */
 static void compact(struct sph *sph)
 {
+    const struct sph_columns *c = &sph->columns;
     size_t n = 0;
     for (size_t a = 0; a < sph->store->count; a++) {
-        if (sph->work[0][a] > 0)
-            sph->band[n++] = (int32_t)a;
         sph->work[0][a] = 0;
         sph->is_kept[a] = 0;
+        c->curvature[a] = 0;
+        if (sph->ring[a] > RING_NONE) {
+            sph->band[n++] = (int32_t)a;
+            continue;
+        }
+        c->wide_shepard[a] = 0;
+        for (int i = 0; i < 3; i++)
+            c->wide_normal[i][a] = 0;
     }
     sph->n_band = n;
 }
 
 /* --- normals --- */
 
+/* Whether the wide normal of the last step is still that of a particle which only its area is asked of. */
+static bool is_as_before(struct sph *sph, size_t a)
+{
+    if (sph->ring[a] != RING_AREA) {
+        sph->saw_wide_motion[a] = true;
+        return false;
+    }
+    const struct neighbour_lists *wide = &sph->neighbours->wide;
+    bool sees = sph_moves(sph, a);
+    for (int64_t n = wide->first[a]; n < wide->first[a + 1] && !sees; n++)
+        sees = sph_moves(sph, (size_t)wide->list[n]);
+    const bool is_same = !sees && !sph->saw_wide_motion[a] && sph->normals_builds == sph->neighbours->builds;
+    sph->saw_wide_motion[a] = sees;
+    return is_same;
+}
+
 /* Steps B and C. */
 THREADS_INLINE void wide_normals(struct sph *sph, int dimension, bool varies)
 {
     const struct neighbour_lists *wide = &sph->neighbours->wide;
     const struct sph_columns *c = &sph->columns;
-#pragma omp parallel for schedule(static) if (sph->is_shared)
+#pragma omp parallel for schedule(dynamic, 256) if (sph->is_shared)
     for (size_t k = 0; k < sph->n_band; k++) {
         const size_t a = (size_t)sph->band[k];
+        if (is_as_before(sph, a))
+            continue;
         double filled = c->volume[a] * surface_kernel(sph, a, a, dimension, varies).value, normal[3] = {0};
         for (int64_t n = wide->first[a]; n < wide->first[a + 1]; n++) {
             const size_t b = (size_t)wide->list[n];
@@ -176,7 +222,7 @@ static void keep_normals(struct sph *sph)
 #pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t k = 0; k < sph->n_band; k++) {
         const size_t a = (size_t)sph->band[k];
-        const double length = surface_normal_length(sph, a);
+        const double length = sph->ring[a] >= RING_NORMAL ? surface_normal_length(sph, a) : 0;
         sph->is_kept[a] = length * surface_length(sph, a) > threshold ? KEPT : 0;
         sph->work[0][a] = sph->is_kept[a] ? 1 / length : 0;
     }
@@ -222,9 +268,9 @@ THREADS_INLINE void curvature_of(struct sph *sph, size_t a, int dimension, bool 
 
 THREADS_INLINE void raw_curvatures(struct sph *sph, int dimension, bool varies)
 {
-#pragma omp parallel for schedule(static) if (sph->is_shared)
+#pragma omp parallel for schedule(dynamic, 256) if (sph->is_shared)
     for (size_t k = 0; k < sph->n_band; k++)
-        if (sph->is_kept[sph->band[k]])
+        if (sph->is_kept[sph->band[k]] && sph->ring[sph->band[k]] >= RING_CURVATURE)
             curvature_of(sph, (size_t)sph->band[k], dimension, varies);
 }
 
@@ -244,10 +290,10 @@ THREADS_INLINE void smooth_curvatures(struct sph *sph, int dimension, bool varie
     const struct neighbour_lists *wide = &sph->neighbours->wide;
     const struct sph_columns *c = &sph->columns;
     const bool corrects = sph->words->corrects_depth && sph->words->surface == SURFACE_BALANCED;
-#pragma omp parallel for schedule(static) if (sph->is_shared)
+#pragma omp parallel for schedule(dynamic, 256) if (sph->is_shared)
     for (size_t k = 0; k < sph->n_band; k++) {
         const size_t a = (size_t)sph->band[k];
-        if (sph->is_kept[a] != KEPT)
+        if (sph->is_kept[a] != KEPT || sph->ring[a] != RING_FORCE)
             continue;
         double filled = c->volume[a] * surface_kernel(sph, a, a, dimension, varies).value, sum = filled * sph->work[1][a];
         for (int64_t n = wide->first[a]; n < wide->first[a + 1]; n++) {
@@ -266,8 +312,10 @@ void surface_find(struct sph *sph)
 {
     RUN_FORM(fixed_normals, sph);
     mark_candidates(sph);
+    find_rings(sph);
     compact(sph);
     RUN_FORM(wide_normals, sph);
+    sph->normals_builds = sph->neighbours->builds;
     if (sph->words->surface == SURFACE_THESIS)
         RUN_FORM(thesis_normals, sph);
     keep_normals(sph);

@@ -157,10 +157,13 @@ static inline void fixture_start(struct fixture *fixture)
         sph->work[i] = memory_array(fixture->n, sizeof(double), "test");
     sph->band = memory_array(fixture->n, sizeof *sph->band, "test");
     sph->is_kept = memory_array(fixture->n, sizeof *sph->is_kept, "test");
+    sph->beside = memory_array(fixture->n, sizeof *sph->beside, "test");
+    sph->ring = memory_array(fixture->n, sizeof *sph->ring, "test");
     sph->saw_motion = memory_array(fixture->n, sizeof *sph->saw_motion, "test");
+    sph->saw_wide_motion = memory_array(fixture->n, sizeof *sph->saw_wide_motion, "test");
     sph->neighbours = neighbours_open(sph->store, sph->dimension, 2 * sph->smoothing,
                                       2 * fixture->words.wide_smoothing * sph->spacing, 0.25 * sph->spacing);
-    sph->is_shared = sph->neighbours->is_shared = true;
+    sph->is_shared = sph->neighbours->is_shared = sph->has_fixed = true;
     fixture_bind(sph);
     fixture_fill(fixture);
     neighbours_follow(sph->neighbours);
@@ -175,6 +178,7 @@ static inline void fixture_run(struct fixture *fixture)
     for (int i = 0; i < 3; i++)
         for (size_t p = 0; p < sph->store->count; p++)
             sph->columns.a[i][p] = 0;
+    flow_surroundings(sph);
     surface_find(sph);
     surface_forces(sph);
 }
@@ -186,7 +190,10 @@ static inline void fixture_close(struct fixture *fixture)
         memory_free(sph->work[i]);
     memory_free(sph->band);
     memory_free(sph->is_kept);
+    memory_free(sph->beside);
+    memory_free(sph->ring);
     memory_free(sph->saw_motion);
+    memory_free(sph->saw_wide_motion);
     neighbours_close(sph->neighbours);
     store_close(sph->store);
     memory_free(fixture->x);

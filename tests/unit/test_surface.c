@@ -3,6 +3,7 @@
  * (spec am-sph 6.3, 7, 19.2), on particles placed by hand. Numbers that are expected are exact laws, except where they are said to be measured with prototypes (spec 6.2). */
 #include "base/threads.h"
 #include "check.h"
+#include "sph/surface.h"
 #include "random.h"
 #include "surface_fixture.h"
 
@@ -514,6 +515,39 @@ static void test_fixed_normals(void)
     fixture_close(&f);
 }
 
+/* The wide normals of what radiates are made anew only where something moves in sight of them, and are the same then. */
+static void test_areas(void)
+{
+    struct fixture f;
+    double most = 0, area = 0;
+    puts("# areas of what radiates");
+    start_rough(&f, 2, false);
+    f.words.radiates = true;
+    for (int step = 0; step < 12; step++) {
+        double kept[3] = {0};
+        for (size_t p = 0; p < f.n; p++) {
+            if (f.sph.columns.state[p] == SPH_FLUID)
+                f.sph.columns.x[0][p] += 0.02 * SPACING * cos(step);
+            if (f.sph.columns.state[p] != SPH_WALL && p % 12 == (size_t)step)
+                f.sph.columns.state[p] = f.sph.columns.state[p] == SPH_FLUID ? SPH_SOLID : SPH_FLUID;
+        }
+        for (int again = 0; again < 2; again++) {
+            double sum = 0;
+            fixture_run(&f);
+            for (size_t p = 0; p < f.n; p++)
+                sum += f.sph.columns.state[p] == SPH_SOLID ? (double)(p + 1) * surface_normal_length(&f.sph, p) : 0;
+            kept[again] = sum;
+            f.sph.normals_builds = -1;
+        }
+        f.sph.normals_builds = f.sph.neighbours->builds;
+        most = fmax(most, fabs(kept[1] - kept[0]));
+        area = kept[0];
+    }
+    check_true("there are some", area > 0);
+    check_near("are those made anew", most, 0, 0);
+    fixture_close(&f);
+}
+
 int main(void)
 {
     test_layer(2);
@@ -530,5 +564,6 @@ int main(void)
     test_cap();
     test_threads();
     test_fixed_normals();
+    test_areas();
     return check_result();
 }
