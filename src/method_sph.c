@@ -46,10 +46,11 @@ static void put_totals(const struct sph_budget *budget, double *value)
     value[TOTAL_REMOVED] = (double)budget->removed;
 }
 
-static bool shows_pool(const struct scene *scene)
+/* Whether a curve shows one of the totals from one to another. */
+static bool shows_any(const struct scene *scene, enum total first, enum total last)
 {
     for (size_t i = 0; i < scene->n_curves; i++)
-        if (scene->curves[i].result->total >= TOTAL_POOL_LENGTH && scene->curves[i].result->total <= TOTAL_POOL_DEPTH)
+        if (scene->curves[i].result->total >= first && scene->curves[i].result->total <= last)
             return true;
     return false;
 }
@@ -64,14 +65,25 @@ static void put_pool(const struct sph *sph, double *value)
     value[TOTAL_POOL_DEPTH] = extents[sph->dimension - 1];
 }
 
+static void put_track(const struct sph *sph, double *value)
+{
+    const struct sph_track track = sph_track(sph);
+    value[TOTAL_FUSED_LENGTH] = track.zone[0];
+    value[TOTAL_FUSED_WIDTH] = sph->dimension == 3 ? track.zone[1] : 0;
+    value[TOTAL_PENETRATION] = track.penetration;
+    value[TOTAL_ROUGHNESS] = track.roughness;
+}
+
 static void look(struct run *run)
 {
     const struct sph *sph = run->sph;
     run->course = (struct run_course){sph->step, sph->time, sph->time_step, sph->budget.removed};
     run->totals.time = sph->time;
     put_totals(&sph->budget, run->totals.value);
-    if (shows_pool(run->scene))
+    if (shows_any(run->scene, TOTAL_POOL_LENGTH, TOTAL_POOL_DEPTH))
         put_pool(sph, run->totals.value);
+    if (shows_any(run->scene, TOTAL_FUSED_LENGTH, TOTAL_ROUGHNESS))
+        put_track(sph, run->totals.value);
 }
 
 static bool goes_on(const struct run *run)

@@ -79,6 +79,8 @@ void summary_sph_end(const struct sph *sph, const struct timers *timers, double 
         fprintf(stream, "%ld particles left the grid and are removed, with mass %.3g", budget->removed, budget->removed_mass);
     else
         fprintf(stream, "no particle lost");
-    fprintf(stream, ", density within %.2g %% and %.2g %% of its reference\n", 100 * (budget->least_density_ratio - 1),
-            100 * (budget->most_density_ratio - 1));
+    if (!sph->words->freezes_flow && isfinite(budget->least_density_ratio)) /* some fluid that flows */
+        fprintf(stream, ", density within %.2g %% and %.2g %% of its reference", 100 * (budget->least_density_ratio - 1),
+                100 * (budget->most_density_ratio - 1));
+    fprintf(stream, "\n");
 }

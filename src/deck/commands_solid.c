@@ -3,10 +3,14 @@
 #define _XOPEN_SOURCE 700
 #include "base/memory.h"
 #include "deck/reader.h"
+#include "particles/bed.h"
 #include "particles/solid.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+/* Beds of more grains than this would not end. */
+enum { MOST_GRAINS = 100000 };
 
 static const char *nearest_shape(const char *word)
 {
@@ -191,6 +195,87 @@ static void keep_shape(struct reader *reader, const struct deck_word *word, cons
     read_step(reader, SOLID_KEEP, word, &values[0].word);
 }
 
+/* --- beds --- */
+
+/* The words `pick k of n` behind a bed; false after an error. */
+static bool read_pick(struct reader *reader, struct bed *bed, const char *owner)
+{
+    static const char *const names[] = {"pick", NULL};
+    static const struct argument arguments[] = {{"k", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {"n", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}};
+    struct value values[KEYWORD_ARGUMENTS];
+    bed->pick = bed->among = 1;
+    if (reader_optional(reader, names) < 0) {
+        if (reader_at_line_end(reader))
+            return true;
+        reader_expect(reader, owner, "pick");
+        return false;
+    }
+    if (!reader_values(reader, arguments, "pick", values))
+        return false;
+    bed->pick = values[0].integer;
+    bed->among = values[1].integer;
+    if (bed->pick <= bed->among)
+        return true;
+    diagnostics_error(reader->diagnostics, values[0].word.place, "pick takes grain %ld of every %ld; expected one of those", bed->pick,
+                      bed->among);
+    return false;
+}
+
+/* Each grain is a step of its own; in a plane a disc one layer thick. */
+static void add_grains(struct reader *reader, const struct deck_word *word, struct bed *bed)
+{
+    struct solid *solid = reader->block.solid;
+    struct grain grain;
+    const char *fault = NULL;
+    long count = 0;
+    while (solid && !fault && count < MOST_GRAINS && bed_next(bed, &grain)) {
+        const double *c = grain.centre;
+        const struct solid_step ball = {.shape = solid_shape_find("sphe"), .number = {c[0], c[1], c[2], grain.radius}};
+        const struct solid_step disc = {.shape = solid_shape_find("cyli"),
+                                        .number = {2, c[0], c[1], grain.radius, solid->origin[2], solid->origin[2] + solid->spacing}};
+        fault = solid_join(solid, bed->is_flat ? &disc : &ball);
+        count++;
+    }
+    if (fault)
+        diagnostics_error(reader->diagnostics, word->place, "a grain of this bed %s", fault);
+    else if (solid && count == 0)
+        diagnostics_error(reader->diagnostics, word->place, "no grain fits into this bed; expected it longer than two radii");
+    else if (count == MOST_GRAINS)
+        diagnostics_error(reader->diagnostics, word->place, "this bed has more than %d grains; expected larger ones", MOST_GRAINS - 1);
+}
+
+static void read_bed(struct reader *reader, const struct deck_word *word, const struct value *values, bool is_flat)
+{
+    const int floor = is_flat ? 2 : 4;
+    struct bed bed = {.x = {values[0].real, values[1].real}, .is_flat = is_flat, .floor = values[floor].real,
+                      .least = values[floor + 1].real, .most = values[floor + 2].real, .seed = (uint64_t)values[floor + 3].integer};
+    reader->block.steps++;
+    for (int i = 0; i < 2 && !is_flat; i++)
+        bed.y[i] = values[2 + i].real;
+    if (bed.least > bed.most)
+        diagnostics_error(reader->diagnostics, values[floor + 1].word.place, "the least radius, %g, is above the largest, %g", bed.least,
+                          bed.most);
+    else if (read_pick(reader, &bed, is_flat ? "disc" : "ball"))
+        add_grains(reader, word, &bed);
+}
+
+static void add_discs(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    read_bed(reader, word, values, true);
+}
+
+static void add_balls(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    read_bed(reader, word, values, false);
+}
+
+#define LENGTH(name) {name, "length", ARGUMENT_REAL, LIMIT_NONE}
+#define GRAINS {"rmin", "length", ARGUMENT_REAL, LIMIT_POSITIVE}, {"rmax", "length", ARGUMENT_REAL, LIMIT_POSITIVE}, \
+               {"seed", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}
+
+static const struct argument disc_arguments[] = {LENGTH("x0"), LENGTH("x1"), LENGTH("floor"), GRAINS, {0}};
+static const struct argument ball_arguments[] = {LENGTH("x0"), LENGTH("x1"), LENGTH("y0"), LENGTH("y1"), LENGTH("floor"), GRAINS, {0}};
+
 static const struct argument shape_argument[] = {{"shape", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}};
 
 const struct keyword solid_keywords[] = {
@@ -200,6 +285,12 @@ const struct keyword solid_keywords[] = {
      .doc = "takes the points inside a shape away"},
     {.name = "keep", .arguments = shape_argument, .apply = keep_shape, .fail = fail_step,
      .doc = "leaves only the points inside a shape"},
+    {.name = "disc", .long_name = "discs", .arguments = disc_arguments, .apply = add_discs, .fail = fail_step,
+     .doc = "joins a row of powder, for two dimensions: discs one layer thick that lie on the line y = floor and touch, from x0 to x1, with "
+            "radii drawn between two; with `pick k n` behind only number k of every n"},
+    {.name = "ball", .long_name = "balls", .arguments = ball_arguments, .apply = add_balls, .fail = fail_step,
+     .doc = "joins a bed of powder: rows of balls along x on the plane z = floor, from y0 to y1 as far apart as the largest may be wide; "
+            "`pick k n` as with disc"},
     {0}};
 
 bool reader_solid_block(struct reader *reader, struct solid *solid)

@@ -75,9 +75,13 @@ static void read_evaporation(struct reader *reader, const struct deck_word *word
 
 static void read_jitter(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
+    static const char *const names[] = {"soli", NULL};
     (void)word;
     reader->scene->sph.jitter = values[0].real;
     reader->scene->sph.seed = values[1].integer;
+    reader->scene->sph.jitters_solids = reader_optional(reader, names) == 0;
+    if (!reader_at_line_end(reader))
+        reader_expect(reader, "jitt", "solids");
 }
 
 /* --- walls and bodies --- */
@@ -250,6 +254,8 @@ const struct keyword sph_keywords[] = {
     {.name = "dept", .long_name = "depth", SWITCH(corrects_depth), .doc = "curvature corrected for its depth below the surface (on)"},
     {.name = "csfe", .long_name = "csfeps", .arguments = LIST(NUMBER("eps", NULL, LIMIT_POSITIVE)), .field = FIELD(surface_threshold),
      .doc = "normals times h_s below this make no curvature (0.1)"},
+    {.name = "film", .long_name = "films", SWITCH(holds_films),
+     .doc = "surface tension acts on films of one or two layers of particles too, whose curvature is uncertain (on)"},
     {.name = "mara", .long_name = "marangoni", SWITCH(has_marangoni), .doc = "force along the surface where its tension changes (off)"},
     {.name = "heat", .arguments = WORD("off|enth|appa"), .choice = CHOICE(heats, heat),
      .doc = "heat: none (off, default), by enthalpy (enth), by apparent capacity as in the dissertation (appa)"},
@@ -277,9 +283,12 @@ const struct keyword sph_keywords[] = {
     {.name = "froz", .long_name = "frozen", SWITCH(freezes_flow), .doc = "velocities stay zero: conduction alone (off)"},
     {.name = "mush", .arguments = LIST(NUMBER("drag", "1/time", LIMIT_NOT_NEGATIVE)), .field = FIELD(mush_drag),
      .doc = "drag of the mush K0 (1 - s)^2/(s^3 + 0.001), s liquid fraction; 0: none (0)"},
+    {.name = "base", .arguments = LIST(LENGTH("height")), .field = FIELD(base),
+     .doc = "height of the surface below which penetration (curv pene) is measured (0)"},
     {.name = "jitt", .long_name = "jitter",
      .arguments = LIST(NUMBER("amplitude", "spacings", LIMIT_FRACTION), {"seed", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}), .apply = read_jitter,
-     .doc = "fluid starts at random up to so far from its lattice (0)"},
+     .doc = "fluid starts at random up to so far from its lattice (0); with `solids` behind it solids too, which makes melts differ by "
+            "the seed"},
     {.name = "peri", .long_name = "periodic", SWITCH(is_periodic), .doc = "the scene repeats along x, between the ends of the grid (off)"},
     {.name = "powe", .long_name = "power", .arguments = LIST(NUMBER("power", "power/length^3", LIMIT_NONE)), .field = FIELD(volume_heat),
      .doc = "heat that all of the metal is given, per volume (0)"},

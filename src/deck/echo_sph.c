@@ -130,7 +130,7 @@ void echo_sph(const struct scene *scene, FILE *stream)
         print_line(stream, "  radi", (double[]){sph->emissivity, sph->ambient}, 2);
     fprintf(stream, "  jitt");
     echo_numbers(stream, &sph->jitter, 1);
-    fprintf(stream, " %ld\n", sph->seed);
+    fprintf(stream, " %ld%s\n", sph->seed, sph->jitters_solids ? " solids" : "");
     echo_walls(sph, stream);
     echo_bodies(sph, stream);
     echo_beam(&sph->beam, stream);

@@ -90,6 +90,7 @@ struct scene_sph {
     enum surface_form surface;
     bool corrects_depth;
     double surface_threshold; /* eps_n */
+    bool holds_films;         /* surface tension on films of one or two layers of particles too */
     bool has_marangoni;
     enum heat_form heat;
     bool corrects_lattice;    /* of conduction inside fixed solids */
@@ -111,6 +112,8 @@ struct scene_sph {
     double mush_drag;         /* K0; 0: none */
     double jitter;            /* of the start, in spacings */
     long seed;
+    bool jitters_solids;
+    double base;              /* height of the surface from which penetration is measured */
     double volume_heat;       /* power per volume everywhere */
     struct scene_beam beam;
     struct scene_wall *walls;

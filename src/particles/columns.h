@@ -56,6 +56,7 @@ enum column {
     COLUMN_BODY,
     COLUMN_LAYER,
     COLUMN_STATE,
+    COLUMN_FUSED,
     COLUMN_COUNT
 };
 

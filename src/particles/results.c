@@ -168,6 +168,11 @@ static double state(const struct result_source *s, size_t p)
     return s->store->integer[COLUMN_STATE][p];
 }
 
+static double fused(const struct result_source *s, size_t p)
+{
+    return s->store->integer[COLUMN_FUSED][p];
+}
+
 static const struct result rows[] = {
     {.name = "seqv", .methods = METHODS_MPM, .unit = "stress", .doc = "von Mises stress", .value = von_mises},
     {.name = "seqt", .methods = METHODS_MPM, .unit = "stress", .doc = "von Mises stress of the total: with the residual stress of resi taken off",
@@ -212,6 +217,8 @@ static const struct result rows[] = {
     {.name = "stat", .doc = "state: 0 fluid, 1 solid, 2 wall, 3 removed", .is_integer = true, SPH, .columns = {COLUMN_STATE},
      .value = state},
     {.name = "liqu", .doc = "liquid fraction", SPH, .columns = {COLUMN_LIQUID}, .value = liquid},
+    {.name = "fuse", .doc = "1 where it has been melt, at least half liquid, since the start; with heat", .is_integer = true, SPH,
+     .columns = {COLUMN_FUSED}, .value = fused},
     {.name = "enth", .unit = "energy/mass", .doc = "specific enthalpy, 0 at 293; with heat", SPH, .columns = {COLUMN_ENTHALPY},
      .value = enthalpy},
     {.name = "kapp", .unit = "1/length", .doc = "curvature of the surface, positive on a drop; with csf", SPH,
@@ -239,6 +246,14 @@ static const struct result rows[] = {
     {.name = "pool", .unit = "length", .doc = "length of the melt pool along x", SPH = TOTAL_POOL_LENGTH},
     {.name = "poow", .unit = "length", .doc = "width of the melt pool along y; 0 in two dimensions", SPH = TOTAL_POOL_WIDTH},
     {.name = "pood", .unit = "length", .doc = "height of the melt pool along z, in two dimensions along y", SPH = TOTAL_POOL_DEPTH},
+#define FUSED .columns = {COLUMN_FUSED, COLUMN_INITIAL_POSITION}
+    {.name = "fusl", .unit = "length", .doc = "length along x of the zone, at its place at the start, that has been melt", FUSED,
+     SPH = TOTAL_FUSED_LENGTH},
+    {.name = "fusw", .unit = "length", .doc = "its width along y; 0 in two dimensions", FUSED, SPH = TOTAL_FUSED_WIDTH},
+    {.name = "pene", .unit = "length", .doc = "penetration: how far below `base` it reaches", FUSED, SPH = TOTAL_PENETRATION},
+    {.name = "roug", .unit = "length", .doc = "roughness of the track: the top of what has been melt, along x, its highest less its lowest",
+     FUSED, SPH = TOTAL_ROUGHNESS},
+#undef FUSED
 #undef SPH
 };
 

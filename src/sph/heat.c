@@ -543,6 +543,8 @@ void heat_advance(struct sph *sph, double time_step)
         c->excess_offset[p] *= left;
         warm(sph, p, time_step);
         change_state(sph, p, sph->time + time_step);
+        if (c->fused && c->liquid[p] >= 0.5)
+            c->fused[p] = sph->bodies[c->body[p]].properties->melts;
     }
     add_to_budget(sph, time_step);
 }

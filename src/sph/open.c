@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Builds and frees what a run of smoothed particles owns. */
 #include "base/memory.h"
+#include "base/scatter.h"
 #include "deck/diagnostics.h"
 #include "sph/sph.h"
 
@@ -86,17 +87,6 @@ static void create_bodies(struct sph *sph, const struct scene *scene)
 
 /* --- particles --- */
 
-/* A number between -1/2 and 1/2 that depends on its arguments alone (splitmix64). */
-static double scattered(uint64_t seed, uint64_t id, uint64_t axis)
-{
-    uint64_t x = seed * 0x9e3779b97f4a7c15u + id * 3 + axis + 1;
-    x *= 0x9e3779b97f4a7c15u;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    x ^= x >> 31;
-    return (double)(x >> 11) / 9007199254740992.0 - 0.5;
-}
-
 struct filling {
     struct sph *sph;
     size_t next;
@@ -131,8 +121,9 @@ static void fill_particle(void *context, const double position[3], double mass)
     const double density = density_of_mass(sph, body, filling->temperature);
     const enum sph_state state = state_at_start(body, filling->temperature);
     for (int a = 0; a < 3; a++) {
-        const double jitter = state == SPH_FLUID && a < sph->dimension ? sph->words->jitter * pow(volume, 1.0 / sph->dimension) : 0;
-        store->real[COLUMN_POSITION][a][p] = position[a] + 2 * jitter * scattered((uint64_t)sph->words->seed, p, (uint64_t)a);
+        const bool is_scattered = a < sph->dimension && (state == SPH_FLUID || (state == SPH_SOLID && sph->words->jitters_solids));
+        const double jitter = is_scattered ? sph->words->jitter * pow(volume, 1.0 / sph->dimension) : 0;
+        store->real[COLUMN_POSITION][a][p] = position[a] + 2 * jitter * scatter((uint64_t)sph->words->seed, p, (uint64_t)a);
         store->real[COLUMN_VELOCITY][a][p] = body->wall ? body->wall->velocity[a] : 0;
     }
     store->real[COLUMN_MASS][0][p] = density * volume;
@@ -146,6 +137,8 @@ static void fill_particle(void *context, const double position[3], double mass)
     store->integer[COLUMN_ID][p] = store->index_of_id[p] = (int32_t)p;
     store->integer[COLUMN_BODY][p] = filling->body;
     store->integer[COLUMN_STATE][p] = (int32_t)state;
+    if (store_has(store, COLUMN_FUSED))
+        store->integer[COLUMN_FUSED][p] = body->properties->melts && state == SPH_FLUID && store->real[COLUMN_LIQUID][0][p] >= 0.5;
 }
 
 static double temperature_of_body(const struct scene_sph *words, size_t body)
@@ -242,6 +235,7 @@ void sph_bind(struct sph *sph)
     }
     sph->columns.state = store->integer[COLUMN_STATE];
     sph->columns.body = store->integer[COLUMN_BODY];
+    sph->columns.fused = store->integer[COLUMN_FUSED];
 }
 
 /* --- sound --- */

@@ -43,7 +43,7 @@ struct sph_columns {
     double *normal[3];                    /* N of spec 6.3 A; NULL without surface forces, radiation, evaporation */
     double *wide_normal[3], *wide_shepard, *curvature;
     double *temperature, *enthalpy, *liquid, *conductivity, *heat_rate, *laser_power; /* NULL without heat (and beam) */
-    int32_t *state, *body;
+    int32_t *state, *body, *fused; /* the last NULL where nothing asks for it */
 };
 
 /* Sums that a step leaves behind; a row of results names each for `curv`. All in the units of the deck; in two
@@ -198,5 +198,12 @@ double sph_heat_error(const struct sph *sph);
 /* Extents along the axes of what is at least half liquid of materials that melt, a spacing more than those of its
  * particles' places; 0 where there is none. */
 void sph_pool(const struct sph *sph, double extents[3]);
+
+/* What has been melt since the start: `zone` are extents along the axes of where its particles were at the start, and how
+ * far below the base that reaches. `roughness`: of its top, along x. Needs the column `fused`; 0 where there is none. */
+struct sph_track {
+    double zone[3], penetration, roughness;
+};
+struct sph_track sph_track(const struct sph *sph);
 
 #endif

@@ -242,7 +242,8 @@ THREADS_INLINE void curvature_of(struct sph *sph, size_t a, int dimension, bool 
     const struct sph_columns *c = &sph->columns;
     const double *inverse = sph->work[0], length = surface_length(sph, a);
     double filled = c->volume[a] * surface_kernel(sph, a, a, dimension, varies).value, sum = 0, own[3];
-    bool is_thin = c->wide_shepard[a] < SPARSE;
+    const bool leaves_films = !sph->words->holds_films;
+    bool is_thin = leaves_films && c->wide_shepard[a] < SPARSE;
     for (int i = 0; i < 3; i++)
         own[i] = c->wide_normal[i][a] * inverse[a];
     for (int64_t n = wide->first[a]; n < wide->first[a + 1]; n++) {
@@ -259,7 +260,7 @@ THREADS_INLINE void curvature_of(struct sph *sph, size_t a, int dimension, bool 
         filled += c->volume[b] * pair.value;
         sum += c->volume[b] * pair.slope * pair_dot(change, pair.d, dimension);
         /* b is on the far side of a film, not of a gap: the normal of a points to it. */
-        is_thin = is_thin || (cosine < OPPOSITE && pair.square < length * length && pair_dot(own, pair.d, dimension) < 0);
+        is_thin = is_thin || (leaves_films && cosine < OPPOSITE && pair.square < length * length && pair_dot(own, pair.d, dimension) < 0);
     }
     sph->work[1][a] = between(-sum / filled, (dimension - 1) / (2 * length));
     if (is_thin)
