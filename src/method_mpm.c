@@ -105,24 +105,11 @@ static void hide_lost(struct run *run)
         run->is_shown[run->store->integer[COLUMN_ID][cells->order[k]]] = 0;
 }
 
-/* Lists particles that left the grid since the last call. New ones come first in their part of the
- * order. */
-static void write_lost(struct run *run)
+/* Those that left stand at the end of the order, the first one last. */
+static int32_t lost_particle(const struct run *run, int32_t n)
 {
     const struct cell_list *cells = run->mpm->cells;
-    const struct store *store = run->mpm->store;
-    const int32_t lost = cells->count - cells->in_cells;
-    for (int32_t k = lost - run->known_lost - 1; k >= 0; k--) {
-        const int32_t p = cells->order[cells->in_cells + k];
-        table_real(&run->lost, run->mpm->time);
-        fprintf(run->lost.stream, " %9d", store->integer[COLUMN_ID][p] + 1);
-        for (int a = 0; a < 3; a++)
-            table_real(&run->lost, store->real[COLUMN_POSITION][a][p]);
-        for (int a = 0; a < 3; a++)
-            table_real(&run->lost, store->real[COLUMN_VELOCITY][a][p]);
-        table_end_line(&run->lost);
-    }
-    run->known_lost = lost;
+    return cells->order[cells->count - 1 - n];
 }
 
 static void exchange(struct run *run, struct checkpoint *checkpoint)
@@ -169,7 +156,7 @@ const struct method method_mpm = {
     .goes_on = goes_on,
     .has_ended = has_ended,
     .hide_lost = hide_lost,
-    .write_lost = write_lost,
+    .lost_particle = lost_particle,
     .exchange = exchange,
     .print_scene = print_scene,
     .print_start = print_start,

@@ -92,10 +92,9 @@ static void hide_lost(struct run *run)
             run->is_shown[run->store->integer[COLUMN_ID][p]] = 0;
 }
 
-/* Removed particles are told in the summary; nothing leaves otherwise. */
-static void write_lost(struct run *run)
+static int32_t lost_particle(const struct run *run, int32_t n)
 {
-    (void)run;
+    return run->store->index_of_id[run->sph->removed[n]];
 }
 
 static void exchange(struct run *run, struct checkpoint *checkpoint)
@@ -143,7 +142,7 @@ const struct method method_sph = {
     .goes_on = goes_on,
     .has_ended = has_ended,
     .hide_lost = hide_lost,
-    .write_lost = write_lost,
+    .lost_particle = lost_particle,
     .exchange = exchange,
     .print_scene = print_scene,
     .print_start = print_start,

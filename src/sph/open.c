@@ -297,6 +297,7 @@ static void create_work(struct sph *sph)
                                &sph->seen[2], &sph->fluid_volume, &sph->excess, &sph->rate};
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
         *arrays[i] = memory_array(count, sizeof(double), "particles");
+    sph->removed = sph->scene->writes_lost ? memory_array(count, sizeof *sph->removed, "particles that left") : NULL;
     if (!needs_band(sph->words))
         return;
     sph->band = memory_array(count, sizeof *sph->band, "the surface");
@@ -359,6 +360,7 @@ void sph_close(struct sph *sph)
                               sph->seen[2], sph->fluid_volume, sph->excess, sph->rate};
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
         memory_free(arrays[i]);
+    memory_free(sph->removed);
     memory_free(sph->band);
     memory_free(sph->is_kept);
     memory_free(sph->saw_motion);
