@@ -117,31 +117,6 @@ static void exchange(struct run *run, struct checkpoint *checkpoint)
     mpm_exchange(run->mpm, checkpoint);
 }
 
-static void print_scene(const struct run *run, FILE *stream)
-{
-    summary_check(run->mpm, stream);
-}
-
-static void print_start(const struct run *run, FILE *stream)
-{
-    summary_start(run->mpm, stream);
-}
-
-static void print_instability(const struct run *run, const struct instability *instability, FILE *stream)
-{
-    summary_instability(run->mpm, instability, stream);
-}
-
-static void print_end(const struct run *run, double seconds, enum status status, FILE *stream)
-{
-    summary_end(run->mpm, &run->timers, seconds, status, stream);
-}
-
-static void print_doubt(const struct run *run, FILE *stream)
-{
-    summary_doubt(run->mpm, stream);
-}
-
 static double updates(const struct run *run)
 {
     return run->mpm->updates;
@@ -158,11 +133,11 @@ const struct method method_mpm = {
     .hide_lost = hide_lost,
     .lost_particle = lost_particle,
     .exchange = exchange,
-    .print_scene = print_scene,
-    .print_start = print_start,
-    .print_instability = print_instability,
-    .print_end = print_end,
-    .print_doubt = print_doubt,
+    .print_scene = summary_check,
+    .print_start = summary_start,
+    .print_instability = summary_instability,
+    .print_end = summary_end,
+    .print_doubt = summary_doubt,
     .updates = updates,
 };
 

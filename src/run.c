@@ -268,7 +268,7 @@ static enum status write_step(struct run *run)
         write_report_line(run);
     }
     const bool is_due = time >= (double)run->next_output;
-    if (is_due || run->method->has_ended(run)) {
+    if (is_due || (run->method->has_ended && run->method->has_ended(run))) {
         if (is_due)
             run->next_output = (float)((double)run->next_output + run->scene->output_interval);
         status = write_dump(run);
@@ -369,7 +369,7 @@ enum status run_close(struct run *run, enum status status)
         run->method->print_end(run, seconds, status, run->log);
         if (!run->options.quiet)
             run->method->print_end(run, seconds, status, stderr);
-        if (status == STATUS_FINISHED) {
+        if (status == STATUS_FINISHED && run->method->print_doubt) {
             run->method->print_doubt(run, run->log);
             run->method->print_doubt(run, stderr);
         }
