@@ -151,7 +151,7 @@ help:
 	@echo "make test     runs all tests; the last line counts"
 	@echo "make decks    runs all decks, also the long ones, and compares their numbers"
 	@echo "make check    the tests under sanitizers, with gcc and clang, warnings as errors; make decks; gcc's analyser,"
-	@echo "              valgrind on a small deck of every method, instructions of features that are off"
+	@echo "              valgrind on small decks of every method, instructions in files of features that are off"
 	@echo "make bench    speed: cost by phase, threads, size; against this machine's memory bandwidth"
 	@echo "make study    accuracy: convergence and conservation by scheme"
 	@echo "make report   accuracy against run time by case and scheme: report/index.html; QUICK=1 for the short form"

@@ -6,6 +6,7 @@
 #include "base/instability.h"
 #include "deck/scene_sph.h"
 
+#include <stdint.h>
 #include <stdio.h>
 
 struct run;
@@ -21,12 +22,13 @@ struct method {
     struct instability (*advance)(struct run *run);
     /* Puts time, step and sums into run->course and run->totals; after open, after a step, after a restart. */
     void (*look)(struct run *run);
-    /* Whether there is a further step; whether the last step ended the run for another reason than its time. */
+    /* Whether there is a further step; whether the last step ended the run for another reason than its time (NULL: never). */
     bool (*goes_on)(const struct run *run);
     bool (*has_ended)(const struct run *run);
-    /* Takes particles that are gone out of run->is_shown; lists those of the last step in job_lost.dat. */
+    /* Takes particles that are gone out of run->is_shown. */
     void (*hide_lost)(struct run *run);
-    void (*write_lost)(struct run *run);
+    /* Where the n-th particle that left the grid, from 0 on, is in run->store; only of scenes that list them. */
+    int32_t (*lost_particle)(const struct run *run, int32_t n);
     /* The whole state between two steps, to or from a checkpoint. */
     void (*exchange)(struct run *run, struct checkpoint *checkpoint);
     /* Particles, grid, first step (also for --check); with columns and memory; why it was stopped; the end. */
@@ -34,7 +36,7 @@ struct method {
     void (*print_start)(const struct run *run, FILE *stream);
     void (*print_instability)(const struct run *run, const struct instability *instability, FILE *stream);
     void (*print_end)(const struct run *run, double seconds, enum status status, FILE *stream);
-    /* Warns where a run that came to its end should be doubted. */
+    /* Warns where a run that came to its end should be doubted; or NULL. */
     void (*print_doubt)(const struct run *run, FILE *stream);
     /* Particles that took part, summed over steps. */
     double (*updates)(const struct run *run);

@@ -105,54 +105,16 @@ static void hide_lost(struct run *run)
         run->is_shown[run->store->integer[COLUMN_ID][cells->order[k]]] = 0;
 }
 
-/* Lists particles that left the grid since the last call. New ones come first in their part of the
- * order. */
-static void write_lost(struct run *run)
+/* Those that left stand at the end of the order, the first one last. */
+static int32_t lost_particle(const struct run *run, int32_t n)
 {
     const struct cell_list *cells = run->mpm->cells;
-    const struct store *store = run->mpm->store;
-    const int32_t lost = cells->count - cells->in_cells;
-    for (int32_t k = lost - run->known_lost - 1; k >= 0; k--) {
-        const int32_t p = cells->order[cells->in_cells + k];
-        table_real(&run->lost, run->mpm->time);
-        fprintf(run->lost.stream, " %9d", store->integer[COLUMN_ID][p] + 1);
-        for (int a = 0; a < 3; a++)
-            table_real(&run->lost, store->real[COLUMN_POSITION][a][p]);
-        for (int a = 0; a < 3; a++)
-            table_real(&run->lost, store->real[COLUMN_VELOCITY][a][p]);
-        table_end_line(&run->lost);
-    }
-    run->known_lost = lost;
+    return cells->order[cells->count - 1 - n];
 }
 
 static void exchange(struct run *run, struct checkpoint *checkpoint)
 {
     mpm_exchange(run->mpm, checkpoint);
-}
-
-static void print_scene(const struct run *run, FILE *stream)
-{
-    summary_check(run->mpm, stream);
-}
-
-static void print_start(const struct run *run, FILE *stream)
-{
-    summary_start(run->mpm, stream);
-}
-
-static void print_instability(const struct run *run, const struct instability *instability, FILE *stream)
-{
-    summary_instability(run->mpm, instability, stream);
-}
-
-static void print_end(const struct run *run, double seconds, enum status status, FILE *stream)
-{
-    summary_end(run->mpm, &run->timers, seconds, status, stream);
-}
-
-static void print_doubt(const struct run *run, FILE *stream)
-{
-    summary_doubt(run->mpm, stream);
 }
 
 static double updates(const struct run *run)
@@ -169,13 +131,13 @@ const struct method method_mpm = {
     .goes_on = goes_on,
     .has_ended = has_ended,
     .hide_lost = hide_lost,
-    .write_lost = write_lost,
+    .lost_particle = lost_particle,
     .exchange = exchange,
-    .print_scene = print_scene,
-    .print_start = print_start,
-    .print_instability = print_instability,
-    .print_end = print_end,
-    .print_doubt = print_doubt,
+    .print_scene = summary_check,
+    .print_start = summary_start,
+    .print_instability = summary_instability,
+    .print_end = summary_end,
+    .print_doubt = summary_doubt,
     .updates = updates,
 };
 

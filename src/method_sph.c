@@ -91,12 +91,6 @@ static bool goes_on(const struct run *run)
     return run->sph->step == 0 || run->sph->time <= run->scene->end_time;
 }
 
-static bool has_ended(const struct run *run)
-{
-    (void)run;
-    return false;
-}
-
 static void hide_lost(struct run *run)
 {
     for (size_t p = 0; p < run->store->count; p++)
@@ -104,41 +98,14 @@ static void hide_lost(struct run *run)
             run->is_shown[run->store->integer[COLUMN_ID][p]] = 0;
 }
 
-/* Removed particles are told in the summary; nothing leaves otherwise. */
-static void write_lost(struct run *run)
+static int32_t lost_particle(const struct run *run, int32_t n)
 {
-    (void)run;
+    return run->store->index_of_id[run->sph->removed[n]];
 }
 
 static void exchange(struct run *run, struct checkpoint *checkpoint)
 {
     sph_exchange(run->sph, checkpoint);
-}
-
-static void print_scene(const struct run *run, FILE *stream)
-{
-    summary_sph_check(run->sph, stream);
-}
-
-static void print_start(const struct run *run, FILE *stream)
-{
-    summary_sph_start(run->sph, stream);
-}
-
-static void print_instability(const struct run *run, const struct instability *instability, FILE *stream)
-{
-    summary_sph_instability(run->sph, instability, stream);
-}
-
-static void print_end(const struct run *run, double seconds, enum status status, FILE *stream)
-{
-    summary_sph_end(run->sph, &run->timers, seconds, status, stream);
-}
-
-static void print_doubt(const struct run *run, FILE *stream)
-{
-    (void)run;
-    (void)stream;
 }
 
 static double updates(const struct run *run)
@@ -153,14 +120,12 @@ const struct method method_sph = {
     .advance = advance,
     .look = look,
     .goes_on = goes_on,
-    .has_ended = has_ended,
     .hide_lost = hide_lost,
-    .write_lost = write_lost,
+    .lost_particle = lost_particle,
     .exchange = exchange,
-    .print_scene = print_scene,
-    .print_start = print_start,
-    .print_instability = print_instability,
-    .print_end = print_end,
-    .print_doubt = print_doubt,
+    .print_scene = summary_sph_check,
+    .print_start = summary_sph_start,
+    .print_instability = summary_sph_instability,
+    .print_end = summary_sph_end,
     .updates = updates,
 };

@@ -154,8 +154,8 @@ static bool are_sound(const struct run *run)
     for (int i = 0; i < RUN_TABLES; i++)
         if (run->marks[i].length < 0)
             return false;
-    return run->dumps >= 1 && run->dumps <= run->course.step + 1 && run->known_lost >= 0
-        && run->known_lost <= run->course.lost;
+    return run->dumps >= 1 && run->dumps <= run->course.step + 1
+        && run->known_lost == (run->scene->writes_lost ? run->course.lost : 0);
 }
 
 /* A list of no more times than there were dumps, nor than the file can hold. */

@@ -170,6 +170,22 @@ static void write_report_line(struct run *run)
             totals->value[TOTAL_MOMENTUM_Y], totals->value[TOTAL_MOMENTUM_Z]);
 }
 
+/* Lists the particles that left the grid since the last call. */
+static void write_lost(struct run *run)
+{
+    const struct store *store = run->store;
+    for (; run->known_lost < run->course.lost; run->known_lost++) {
+        const int32_t p = run->method->lost_particle(run, run->known_lost);
+        table_real(&run->lost, run->course.time);
+        fprintf(run->lost.stream, " %9d", store->integer[COLUMN_ID][p] + 1);
+        for (int a = 0; a < 3; a++)
+            table_real(&run->lost, store->real[COLUMN_POSITION][a][p]);
+        for (int a = 0; a < 3; a++)
+            table_real(&run->lost, store->real[COLUMN_VELOCITY][a][p]);
+        table_end_line(&run->lost);
+    }
+}
+
 /* What the files of a new run begin with. */
 static enum status start_output(struct run *run)
 {
@@ -181,7 +197,7 @@ static enum status start_output(struct run *run)
         animation_header(&run->animation, scene);
     if (scene->writes_lost) {
         fprintf(run->lost.stream, "VARIABLES = \"Time\" \"id\" \"X\" \"Y\" \"Z\" \"velx\" \"vely\" \"velz\"\n");
-        run->method->write_lost(run);
+        write_lost(run);
     }
     fprintf(run->log, "! mpm3d %s: the deck as understood; it can be run again\n", VERSION);
     echo_scene(scene, run->log, scene->n_particles <= 20000);
@@ -246,13 +262,13 @@ static enum status write_step(struct run *run)
     enum status status = STATUS_FINISHED;
     history_step(&run->history, run->scene, &run->source, &run->totals);
     if (run->scene->writes_lost)
-        run->method->write_lost(run);
+        write_lost(run);
     if (time >= (double)run->next_report) {
         run->next_report = (float)((double)run->next_report + run->scene->report_interval);
         write_report_line(run);
     }
     const bool is_due = time >= (double)run->next_output;
-    if (is_due || run->method->has_ended(run)) {
+    if (is_due || (run->method->has_ended && run->method->has_ended(run))) {
         if (is_due)
             run->next_output = (float)((double)run->next_output + run->scene->output_interval);
         status = write_dump(run);
@@ -286,7 +302,7 @@ enum status run_step(struct run *run)
     run->method->look(run);
     if (instability.is_stopped) {
         if (run->scene->writes_lost)
-            run->method->write_lost(run);
+            write_lost(run);
         progress_close(&run->progress);
         run->method->print_instability(run, &instability, stderr);
         run->method->print_instability(run, &instability, run->log);
@@ -353,7 +369,7 @@ enum status run_close(struct run *run, enum status status)
         run->method->print_end(run, seconds, status, run->log);
         if (!run->options.quiet)
             run->method->print_end(run, seconds, status, stderr);
-        if (status == STATUS_FINISHED) {
+        if (status == STATUS_FINISHED && run->method->print_doubt) {
             run->method->print_doubt(run, run->log);
             run->method->print_doubt(run, stderr);
         }

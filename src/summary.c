@@ -9,8 +9,9 @@
 
 enum { SHOWN_LOST = 10 };
 
-void summary_check(const struct mpm *mpm, FILE *stream)
+void summary_check(const struct run *run, FILE *stream)
 {
+    const struct mpm *mpm = run->mpm;
     const struct cell_frame *frame = &mpm->cells->frame;
     fprintf(stream, "%zu particles in %zu bodies, %zu materials\n", mpm->store->count, mpm->scene->n_bodies,
             mpm->scene->n_materials);
@@ -25,10 +26,11 @@ void summary_check(const struct mpm *mpm, FILE *stream)
             ceil(mpm->scene->end_time / mpm->first_time_step));
 }
 
-void summary_start(const struct mpm *mpm, FILE *stream)
+void summary_start(const struct run *run, FILE *stream)
 {
+    const struct mpm *mpm = run->mpm;
     fprintf(stream, "\n");
-    summary_check(mpm, stream);
+    summary_check(run, stream);
     account_print(mpm, stream);
     fprintf(stream, "mass cutoff of the nodes %.6E\n", mpm->scene->mass_cutoff);
     fprintf(stream, "kinetic energy %.9E, internal energy %.9E\n\n", mpm->sums.kinetic, mpm->sums.internal);
@@ -58,8 +60,9 @@ static void print_particle(const struct mpm *mpm, long id, FILE *stream)
         fprintf(stream, "outside the grid\n");
 }
 
-void summary_instability(const struct mpm *mpm, const struct instability *instability, FILE *stream)
+void summary_instability(const struct run *run, const struct instability *instability, FILE *stream)
 {
+    const struct mpm *mpm = run->mpm;
     fprintf(stream, "mpm3d: the run is stopped at step %ld, time %.6E: %s\n", mpm->step, mpm->time,
             instability->cause);
     if (instability->particle >= 0)
@@ -172,9 +175,10 @@ const char *summary_ending(enum status status)
     return status == STATUS_INTERRUPTED ? "interrupted" : endings[status];
 }
 
-void summary_end(const struct mpm *mpm, const struct timers *timers, double seconds, enum status status, FILE *stream)
+void summary_end(const struct run *run, double seconds, enum status status, FILE *stream)
 {
-    summary_timers(mpm->updates, timers, seconds, stream);
+    const struct mpm *mpm = run->mpm;
+    summary_timers(mpm->updates, &run->timers, seconds, stream);
     if (mpm->equilibrium)
         print_systems(mpm, stream);
     fprintf(stream, "%s after %ld steps at time %.6E: ", summary_ending(status), mpm->step, mpm->time);
@@ -189,8 +193,9 @@ void summary_end(const struct mpm *mpm, const struct timers *timers, double seco
                 schedule_last_step(mpm->schedule));
 }
 
-void summary_doubt(const struct mpm *mpm, FILE *stream)
+void summary_doubt(const struct run *run, FILE *stream)
 {
+    const struct mpm *mpm = run->mpm;
     if (!mpm->scene->finds_equilibrium && mpm_has_gained_energy(mpm))
         fprintf(stream, "mpm3d: warning: %.0f %% of the energy came from nowhere: do not trust this run; try a smaller dtsc, gimp or "
                 "bimp\n", 100 * mpm_energy_error(mpm));

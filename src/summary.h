@@ -25,27 +25,27 @@ void summary_cost(const struct run_course *course, double updates, const struct 
 /* --- of the material point method (summary.c) and of smoothed particles (summary_sph.c) --- */
 
 /* Counts, memory, energies and the first time step. */
-void summary_start(const struct mpm *mpm, FILE *stream);
+void summary_start(const struct run *run, FILE *stream);
 
 /* Timer table by phase, cost per particle-step, particles lost, energy and momentum balance. */
-void summary_end(const struct mpm *mpm, const struct timers *timers, double seconds, enum status status, FILE *stream);
+void summary_end(const struct run *run, double seconds, enum status status, FILE *stream);
 
 /* A warning where a run came to its end with energy from nowhere; else nothing. */
-void summary_doubt(const struct mpm *mpm, FILE *stream);
+void summary_doubt(const struct run *run, FILE *stream);
 
 /* Why a run was stopped: step, time, particle, cause, what to try. */
-void summary_instability(const struct mpm *mpm, const struct instability *instability, FILE *stream);
+void summary_instability(const struct run *run, const struct instability *instability, FILE *stream);
 
 /* The same start in a few lines, for --check. */
-void summary_check(const struct mpm *mpm, FILE *stream);
+void summary_check(const struct run *run, FILE *stream);
 
 /* Of a run with quas: that free motions of bodies are taken out, and how the last equilibrium was found. */
 void summary_floating(const struct mpm *mpm, FILE *stream);
 void summary_equilibrium(const struct mpm *mpm, FILE *stream);
 
-void summary_sph_check(const struct sph *sph, FILE *stream);
-void summary_sph_start(const struct sph *sph, FILE *stream);
-void summary_sph_instability(const struct sph *sph, const struct instability *instability, FILE *stream);
-void summary_sph_end(const struct sph *sph, const struct timers *timers, double seconds, enum status status, FILE *stream);
+void summary_sph_check(const struct run *run, FILE *stream);
+void summary_sph_start(const struct run *run, FILE *stream);
+void summary_sph_instability(const struct run *run, const struct instability *instability, FILE *stream);
+void summary_sph_end(const struct run *run, double seconds, enum status status, FILE *stream);
 
 #endif

@@ -11,8 +11,9 @@ static void count_states(const struct sph *sph, size_t states[4])
         states[sph->columns.state[p]]++;
 }
 
-void summary_sph_check(const struct sph *sph, FILE *stream)
+void summary_sph_check(const struct run *run, FILE *stream)
 {
+    const struct sph *sph = run->sph;
     size_t states[4] = {0};
     count_states(sph, states);
     fprintf(stream, "%zu particles in %zu bodies: %zu of fluid, %zu of solid, %zu of walls\n", sph->store->count, sph->scene->n_bodies,
@@ -22,10 +23,11 @@ void summary_sph_check(const struct sph *sph, FILE *stream)
             ceil(sph->scene->end_time / sph->first_time_step));
 }
 
-void summary_sph_start(const struct sph *sph, FILE *stream)
+void summary_sph_start(const struct run *run, FILE *stream)
 {
+    const struct sph *sph = run->sph;
     fprintf(stream, "\n");
-    summary_sph_check(sph, stream);
+    summary_sph_check(run, stream);
     account_columns(sph->store, stream);
     const double lists = (double)neighbours_bytes(sph->neighbours) / (double)sph->store->count;
     fprintf(stream, "memory: %.0f bytes per particle and neighbours' lists (at first %.0f)\n",
@@ -33,8 +35,9 @@ void summary_sph_start(const struct sph *sph, FILE *stream)
     fprintf(stream, "kinetic energy %.9E, heat %.9E\n\n", sph->budget.kinetic, sph->budget.heat);
 }
 
-void summary_sph_instability(const struct sph *sph, const struct instability *instability, FILE *stream)
+void summary_sph_instability(const struct run *run, const struct instability *instability, FILE *stream)
 {
+    const struct sph *sph = run->sph;
     const struct store *store = sph->store;
     fprintf(stream, "mpm3d: the run is stopped at step %ld, time %.6E: %s\n", sph->step, sph->time, instability->cause);
     if (instability->particle >= 0) {
@@ -67,10 +70,11 @@ static void print_heat(const struct sph *sph, FILE *stream)
     fprintf(stream, "; not accounted for: %.1e of it\n", sph_heat_error(sph));
 }
 
-void summary_sph_end(const struct sph *sph, const struct timers *timers, double seconds, enum status status, FILE *stream)
+void summary_sph_end(const struct run *run, double seconds, enum status status, FILE *stream)
 {
+    const struct sph *sph = run->sph;
     const struct sph_budget *budget = &sph->budget;
-    summary_timers(sph->updates, timers, seconds, stream);
+    summary_timers(sph->updates, &run->timers, seconds, stream);
     fprintf(stream, "neighbours listed %ld times; the last time step was limited by %s\n", sph->neighbours->builds, sph->limiting);
     if (sph->words->heat != HEAT_OFF)
         print_heat(sph, stream);

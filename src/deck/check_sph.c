@@ -40,10 +40,19 @@ static bool is_wall(const struct scene *scene, size_t body)
     return false;
 }
 
-static bool something_melts(const struct scene *scene)
+/* Whether a body is of a material; walls count or do not. */
+static bool is_used(const struct scene *scene, size_t material, bool by_walls_too)
 {
     for (size_t b = 0; b < scene->n_bodies; b++)
-        if (material_of_body(scene, b)->properties.melts && !is_wall(scene, b))
+        if ((size_t)scene->bodies[b].generator.material == material && (by_walls_too || !is_wall(scene, b)))
+            return true;
+    return false;
+}
+
+static bool something_melts(const struct scene *scene)
+{
+    for (size_t i = 0; i < scene->n_materials; i++)
+        if (scene->materials[i].properties.melts && is_used(scene, i, false))
             return true;
     return false;
 }
@@ -86,11 +95,11 @@ static void check_evaporation(struct reader *reader)
 {
     const struct scene *scene = reader->scene;
     bool boils = false;
-    for (size_t b = 0; b < scene->n_bodies; b++)
-        boils = boils || material_of_body(scene, b)->properties.boils;
+    for (size_t i = 0; i < scene->n_materials; i++)
+        boils = boils || (scene->materials[i].properties.boils && is_used(scene, i, false));
     if (scene->sph.evaporates && !boils)
         diagnostics_error(reader->diagnostics, place_of(reader, "evap"),
-                          "'evap' needs a material that boils; expected 'prop material boil Tb heat molar'");
+                          "'evap' needs a body that boils; expected 'prop material boil Tb heat molar'");
 }
 
 static void check_numbers(struct reader *reader)
@@ -167,26 +176,40 @@ static void fill_table(struct property_table *table, double value)
     table->count = 1;
 }
 
-/* What the material of a body lacks; `place` is that of its law. */
-static void check_material(struct reader *reader, size_t body)
+/* What heat needs of a material. Through walls it flows by the conductivity of what is beside them. */
+static void check_heat_properties(struct reader *reader, size_t material)
+{
+    static const struct {
+        enum property property;
+        bool of_walls;
+        const char *expected;
+    } needed[] = {{PROPERTY_CAPACITY, true, "capa n T1 c1 ...'"}, {PROPERTY_CONDUCTIVITY, false, "cond n T1 k1 ...', with 0 where none is meant"}};
+    const struct scene *scene = reader->scene;
+    const struct scene_material *entry = &scene->materials[material];
+    const long number = (long)material + 1;
+    for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
+        if (entry->properties.tables[needed[i].property].count == 0 && is_used(scene, material, needed[i].of_walls))
+            diagnostics_lack(reader->diagnostics, entry->place, "material %ld lacks its %s, which 'heat' needs; expected 'prop %ld %s", number,
+                             property_row(needed[i].property)->doc, number, needed[i].expected);
+}
+
+/* What a material lacks that the surface or the beam needs; those of walls need nothing. */
+static void check_surface_properties(struct reader *reader, size_t material)
 {
     const struct scene *scene = reader->scene;
-    const struct scene_material *entry = material_of_body(scene, body);
-    const struct properties *properties = &entry->properties;
-    const int number = scene->bodies[body].generator.material + 1;
-    const bool is_fluid = !is_wall(scene, body);
+    const struct properties *properties = &scene->materials[material].properties;
+    const long number = (long)material + 1;
     const bool has_surface = properties->surface.is_given || properties->tables[PROPERTY_SURFACE_TENSION].count > 0;
     const char *user = scene->sph.has_marangoni ? "mara" : scene->sph.surface != SURFACE_OFF ? "csf" : NULL;
-    if (scene->sph.heat != HEAT_OFF && properties->tables[PROPERTY_CAPACITY].count == 0)
-        diagnostics_error(reader->diagnostics, entry->place, "material %d lacks its specific heat, which 'heat' needs; expected 'prop %d capa n T1 c1 ...'",
-                          number, number);
-    if (is_fluid && user && !has_surface)
+    if (!is_used(scene, material, false))
+        return;
+    if (user && !has_surface)
         diagnostics_error(reader->diagnostics, place_of(reader, user),
-                          "'%s' needs the surface tension of material %d; expected 'prop %d surf n T1 s1 ...' or 'prop %d sahu ...'", user,
+                          "'%s' needs the surface tension of material %ld; expected 'prop %ld surf n T1 s1 ...' or 'prop %ld sahu ...'", user,
                           number, number, number);
-    if (is_fluid && scene->sph.beam.is_on && scene->sph.beam.absorptivity == 0 && properties->tables[PROPERTY_ABSORPTIVITY].count == 0)
+    if (scene->sph.beam.is_on && scene->sph.beam.absorptivity == 0 && properties->tables[PROPERTY_ABSORPTIVITY].count == 0)
         diagnostics_error(reader->diagnostics, scene->sph.beam.place,
-                          "the absorptivity of 'beam' is 0, that of the material, and material %d has none; expected 'prop %d abso n T1 a1 ...'",
+                          "the absorptivity of 'beam' is 0, that of the material, and material %ld has none; expected 'prop %ld abso n T1 a1 ...'",
                           number, number);
 }
 
@@ -340,6 +363,37 @@ static void check_plane(struct reader *reader, const struct box *boxes, double s
 
 /* --- the beam --- */
 
+/* Pieces come in the order of time; later ones may lie behind endt, as a restart may have another. */
+static void check_path_times(struct reader *reader)
+{
+    const struct scene_beam *beam = &reader->scene->sph.beam;
+    const double end = reader->scene->end_time;
+    for (size_t i = 0; i < beam->n_pieces; i++)
+        if (beam->pieces[i].times[1] <= 0)
+            diagnostics_error(reader->diagnostics, beam->pieces[i].place, "path ends at %g, and the run begins at 0; expected a later end",
+                              beam->pieces[i].times[1]);
+    if (beam->n_pieces > 0 && beam->pieces[0].times[0] > end)
+        diagnostics_error(reader->diagnostics, beam->pieces[0].place,
+                          "'beam' is never on: path begins at %g, and the run ends at %g; expected an earlier path, or a later 'endt'",
+                          beam->pieces[0].times[0], end);
+}
+
+static void check_path_extents(struct reader *reader)
+{
+    const struct scene *scene = reader->scene;
+    const struct scene_beam *beam = &scene->sph.beam;
+    for (size_t i = 0; i < beam->n_pieces; i++)
+        for (int a = 0; a < (int)scene->sph.dimension - 1; a++) {
+            const double low = fmin(beam->pieces[i].from[a], beam->pieces[i].to[a]), high = fmax(beam->pieces[i].from[a], beam->pieces[i].to[a]);
+            if (reader->span_place[a].line == 0 || (low >= scene->grid[2 * a] && high <= scene->grid[2 * a + 1]))
+                continue;
+            diagnostics_error(reader->diagnostics, beam->pieces[i].place,
+                              "path goes along %c from %g to %g; the grid is from %g to %g; expected a path inside, or a larger grid", "xyz"[a],
+                              low, high, scene->grid[2 * a], scene->grid[2 * a + 1]);
+            break;
+        }
+}
+
 static void check_beam(struct reader *reader)
 {
     const struct scene *scene = reader->scene;
@@ -352,15 +406,8 @@ static void check_beam(struct reader *reader)
         diagnostics_error(reader->diagnostics, beam->place, "'beam' is never on; expected 'path t0 t1 x0 y0 z0 x1 y1 z1'");
     if (beam->reading == BEAM_LINE && scene->sph.dimension == 3)
         diagnostics_error(reader->diagnostics, beam->place, "'beam ... line' is of two dimensions; expected 'dime 2', or no 'line'");
-    for (size_t i = 0; i < beam->n_pieces; i++)
-        for (int a = 0; a < (int)scene->sph.dimension - 1; a++) {
-            const double low = fmin(beam->pieces[i].from[a], beam->pieces[i].to[a]), high = fmax(beam->pieces[i].from[a], beam->pieces[i].to[a]);
-            if (reader->span_place[a].line == 0 || (low >= scene->grid[2 * a] && high <= scene->grid[2 * a + 1]))
-                continue;
-            diagnostics_error(reader->diagnostics, beam->pieces[i].place, "path goes along %c from %g to %g; the grid is from %g to %g", "xyz"[a],
-                              beam->pieces[i].from[a], beam->pieces[i].to[a], scene->grid[2 * a], scene->grid[2 * a + 1]);
-            break;
-        }
+    check_path_times(reader);
+    check_path_extents(reader);
 }
 
 void reader_finish_sph(struct reader *reader)
@@ -379,10 +426,12 @@ void reader_finish_sph(struct reader *reader)
     check_needs_melting(reader);
     check_evaporation(reader);
     check_results(reader);
-    for (size_t i = 0; i < scene->n_materials; i++)
+    for (size_t i = 0; i < scene->n_materials; i++) {
         prepare_material(reader, &scene->materials[i]);
-    for (size_t b = 0; b < scene->n_bodies; b++)
-        check_material(reader, b);
+        if (scene->sph.heat != HEAT_OFF)
+            check_heat_properties(reader, i);
+        check_surface_properties(reader, i);
+    }
     const double spacing = check_spacings(reader);
     struct box *boxes = memory_array(scene->n_bodies, sizeof *boxes, "bodies");
     visit_bodies(reader, boxes, spacing);

@@ -323,7 +323,8 @@ const struct keyword solving_keywords[] = {
      .arguments = (const struct argument[]){{"keep|drop|stop", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}},
      .apply = read_lost,
      .doc = "particles that leave the grid: frozen and counted in sums (keep, default), left out (drop), or the end of "
-            "the run (stop); with `write` behind it they are listed in job_lost.dat"},
+            "the run (stop); with `write` behind it they are listed in job_lost.dat. With meth sph they are left out, also "
+            "with keep"},
     {.name = "sort", .arguments = SWITCH, .apply = read_sorting,
      .doc = "keep particles in cell order in memory (on); changes speed, never results"},
     {.name = "gimp", .methods = METHODS_MPM, .apply = read_gimp,

@@ -258,7 +258,8 @@ const struct keyword sph_keywords[] = {
      .doc = "surface tension acts on films of one or two layers of particles too, whose curvature is uncertain (on)"},
     {.name = "mara", .long_name = "marangoni", SWITCH(has_marangoni), .doc = "force along the surface where its tension changes (off)"},
     {.name = "heat", .arguments = WORD("off|enth|appa"), .choice = CHOICE(heats, heat),
-     .doc = "heat: none (off, default), by enthalpy (enth), by apparent capacity as in the dissertation (appa)"},
+     .doc = "heat: none (off, default), by enthalpy (enth), by apparent capacity as in the dissertation (appa); the materials "
+            "need capa and cond of prop"},
     {.name = "latc", .long_name = "lattice", SWITCH(corrects_lattice), .doc = "conduction inside solids times a factor that makes it exact on their lattice (off)"},
     {.name = "vhea", .long_name = "vheat", SWITCH(heats_by_viscosity), .doc = "viscosity heats (off)"},
     {.name = "mref", .long_name = "massref", .arguments = WORD("start|solidus"), .choice = CHOICE(masses, mass),

@@ -337,39 +337,6 @@ void reader_expect(struct reader *reader, const char *owner, const char *expecte
     reader_skip_line(reader);
 }
 
-/* --- methods --- */
-
-void reader_use(struct reader *reader, const char *kind, const char *name, unsigned methods, struct deck_place place)
-{
-    if (methods == 0)
-        return;
-    for (size_t i = 0; i < reader->n_uses; i++)
-        if (reader->uses[i].name == name && reader->uses[i].methods == methods)
-            return;
-    reader->uses = memory_grow(reader->uses, &reader->uses_capacity, reader->n_uses + 1, sizeof *reader->uses, "words");
-    reader->uses[reader->n_uses++] = (struct reader_use){kind, name, methods, place};
-}
-
-/* Words that the deck's method does not have: said where they stand, as nothing is left out silently. False where the
- * deck has no `meth` and should: what else is wrong follows from that. */
-static bool check_methods(struct reader *reader)
-{
-    const enum method_name method = reader->scene->method, other = method == METHOD_MPM ? METHOD_SPH : METHOD_MPM;
-    static const char *const names[] = {[METHOD_MPM] = "mpm", [METHOD_SPH] = "sph"};
-    for (size_t i = 0; i < reader->n_uses; i++) {
-        const struct reader_use *use = &reader->uses[i];
-        if (methods_include(use->methods, method))
-            continue;
-        if (reader->method_place.line == 0) {
-            diagnostics_error(reader->diagnostics, use->place, "%s'%s' needs 'meth %s'", use->kind, use->name, names[other]);
-            return false;
-        }
-        diagnostics_error(reader->diagnostics, use->place, "%s'%s' goes only with 'meth %s'; this deck has 'meth %s'", use->kind,
-                          use->name, names[other], names[method]);
-    }
-    return true;
-}
-
 /* --- commands --- */
 
 /* Stores which of the names of a choice stands as the argument; false, after an error, where none does. */
@@ -637,7 +604,7 @@ static void finish(struct reader *reader)
         diagnostics_error(reader->diagnostics, text_behind(&reader->last), "the deck ends without 'endi'");
         return;
     }
-    if (!check_methods(reader))
+    if (!reader_check_methods(reader))
         return;
     reader_finish_grid(reader, end);
     reader_finish_materials(reader);

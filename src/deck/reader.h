@@ -71,6 +71,10 @@ bool reader_values(struct reader *reader, const struct argument *arguments, cons
 /* Notes that a word of a kind ("" for keywords) was used that only some methods have. */
 void reader_use(struct reader *reader, const char *kind, const char *name, unsigned methods, struct deck_place place);
 
+/* Reports such words that the deck's method does not have, where they stand: nothing is left out silently. False where the
+ * deck has no `meth` and should: what else is wrong follows from that. */
+bool reader_check_methods(struct reader *reader);
+
 /* Takes words up to, not including, the next one that begins a line. */
 void reader_skip_line(struct reader *reader);
 

@@ -16,15 +16,26 @@ static const struct {
     FIELD(stable_step), FIELD(sound_speed), FIELD(updates),     FIELD(budget),     FIELD(start_heat),
 };
 
+/* Whether a state that was read is one, and as many are removed as the budget says. */
+static bool are_sound(const struct sph *sph)
+{
+    const int32_t *state = sph->store->integer[COLUMN_STATE];
+    long removed = 0;
+    for (size_t p = 0; p < sph->store->count; p++) {
+        if (state[p] < SPH_FLUID || state[p] > SPH_REMOVED)
+            return false;
+        removed += state[p] == SPH_REMOVED;
+    }
+    return removed == sph->budget.removed;
+}
+
 void sph_exchange(struct sph *sph, struct checkpoint *checkpoint)
 {
     for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
         checkpoint_item(checkpoint, fields[i].name, (char *)sph + fields[i].offset, fields[i].size, 1);
     store_exchange(sph->store, checkpoint, sph->scene->n_bodies);
-    const struct store *store = sph->store;
-    for (size_t p = 0; p < store->count && checkpoint_is_reading(checkpoint) && checkpoint_is_good(checkpoint); p++)
-        if (store->integer[COLUMN_STATE][p] < SPH_FLUID || store->integer[COLUMN_STATE][p] > SPH_REMOVED)
-            checkpoint_reject(checkpoint, "states");
+    if (checkpoint_is_reading(checkpoint) && checkpoint_is_good(checkpoint) && !are_sound(sph))
+        checkpoint_reject(checkpoint, "states");
     long builds = sph->neighbours->builds;
     checkpoint_item(checkpoint, "builds", &builds, sizeof builds, 1);
     if (!checkpoint_is_reading(checkpoint) || !checkpoint_is_good(checkpoint))

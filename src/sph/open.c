@@ -296,6 +296,7 @@ static void create_work(struct sph *sph)
         *arrays[i] = memory_array(count, sizeof(double), "particles");
     if (sph->has_fixed)
         sph->beside = memory_array(count, sizeof *sph->beside, "walls");
+    sph->removed = sph->scene->writes_lost ? memory_array(count, sizeof *sph->removed, "particles that left") : NULL;
     if (!needs_band(sph->words))
         return;
     sph->band = memory_array(count, sizeof *sph->band, "the surface");
@@ -361,6 +362,7 @@ void sph_close(struct sph *sph)
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
         memory_free(arrays[i]);
     memory_free(sph->beside);
+    memory_free(sph->removed);
     memory_free(sph->band);
     memory_free(sph->is_kept);
     memory_free(sph->ring);

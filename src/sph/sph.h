@@ -102,6 +102,8 @@ struct sph {
     const char *limiting; /* what limits the time step, for the log */
     double updates;     /* particles that took part, summed over steps */
     struct sph_budget budget;
+    int32_t *removed;   /* ids of particles that left the grid, as they left (since the restart: those before are in the
+                         * file); NULL where the scene does not list them */
     struct sph_powers powers;
     double start_heat;
 

@@ -81,6 +81,8 @@ static void remove_outsiders(struct sph *sph)
             continue;
         c->state[p] = SPH_REMOVED;
         c->volume[p] = 0;
+        if (sph->removed)
+            sph->removed[budget->removed] = sph->store->integer[COLUMN_ID][p];
         budget->removed++;
         budget->removed_mass += c->mass[p];
         budget->removed_heat += c->enthalpy ? c->mass[p] * c->enthalpy[p] : 0;

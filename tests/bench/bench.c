@@ -254,7 +254,8 @@ static void compare(const char *first, const char *second, int rounds, struct me
         }
 }
 
-/* What a feature costs where it is on; where it is off nothing of it is run (tests/check/leave_out.sh counts that). */
+/* What a feature costs where it is on. Where it is off nearly nothing of its own files is run (tests/check/leave_out.sh
+ * counts that); what the loop over particles itself has for it, such as a test, is in both times here. */
 static void print_features(int rounds)
 {
     static const char *const plain = "bulk 0 0 jaum off";

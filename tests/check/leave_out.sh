@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What a scene does not need costs it nothing: the instructions of a plain run, counted, that belong to the files of features which
-# it does not use, as a part of all. sh tests/check/leave_out.sh BUILD
+# What a scene does not need costs it nearly nothing: the instructions of a plain run, counted by source file; those in the files of
+# features which it does not use, as a part of all. What is not counted: a feature's code inside the files of the loop itself, such as
+# a test whether it is on; `make bench` measures what features cost in time. sh tests/check/leave_out.sh BUILD
 build=$(cd "$1" && pwd) || exit 2
 if ! command -v callgrind_annotate >/dev/null; then
     echo "skip leave_out: no valgrind here"
@@ -40,8 +41,8 @@ callgrind_annotate --auto=no --threshold=100 counts | awk '
     }
     END {
         printf "%.0f instructions, %.4f of them in linear.h, motion.c, grid.c, stress_update.c, elastic.c; %.6f in files of features that are off (most in %s)\n", all, used / all, sum / all, where
-        if (all > 0 && used / all > 0.5 && sum / all < 0.001) print "ok features that are off take less than a thousandth of the instructions"
-        else print "FAIL features that are off take instructions"
+        if (all > 0 && used / all > 0.5 && sum / all < 0.001) print "ok files of features that are off take less than a thousandth of the instructions"
+        else print "FAIL files of features that are off take instructions"
     }' >result
 cat result
 ! grep -q FAIL result

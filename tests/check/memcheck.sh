@@ -40,6 +40,9 @@ check "openings, hot zone" decks/coverage/build_points.mpm 25 ""
 check "layers, residual stress" decks/coverage/build_layers.mpm 45 ""
 check "explosive" decks/reference/deto_1d.mpm 3 ""
 check "Johnson-Cook" decks/coverage/law_jcf_failure.mpm 3 ""
+check "smoothed particles: flow that leaves the grid" decks/coverage/sph_lost.mpm 8 ""
+check "smoothed particles: surface tension" ../decks/sph/laplace_2d.mpm 2 ""
+check "smoothed particles: heat, beam, a scene that repeats" decks/coverage/sph_beam.mpm 4 ""
 check "generators" decks/reference/generators.mpm 2 ""
 cp "$here/property/equilibria.mpm" job.mpm
 if grind -o out job.mpm; then echo "ok equilibria"; else echo "FAIL equilibria"; head -n 12 said; failed=1; fi

@@ -47,10 +47,17 @@ static const char of_equilibria[] =
     "part bloc 1\n1 1e-3 0.25 0.25 0.25 0 2 2 3\nGhost\nendG\nresi 1 -5 -2 0\nscan 0 45\n"
     "fixn -9 9 -9 9 0 0 1 1 1\nopen layer every 3\nquas 1e-6\nendt 1\noutt 1\noutr seqv\noutr disz\ncurv seqv 1\nendi\n";
 
+static const char of_liquid[] =
+    "mpm3d liquid that flies out of the grid, with heat and surface tension\n"
+    "meth sph\nnbbo 1\nnbmp 12\nnmat 1\ngrid 0 1 0 1 -1 1\nsph\ndime 2\nc0 10\ncsf bala\nheat enth\nends\n"
+    "mate\n1 flui 1 1e-3\nprop 1 capa 1 293 1\nprop 1 cond 1 293 1e-3\nprop 1 surf 1 293 1e-3\n"
+    "part bloc 1\n1 1 0.1 0.6 0.3 0 4 3 1\nvelo\nbody 1 5 0 0\nendv\nlost keep write\nendt 1\noutt 0.5\n"
+    "tecp\noutr pres\ncurv remo\nendi\n";
+
 static const struct {
     const char *text;
     int steps, steps_more; /* up to the checkpoint, and from it; equilibria with other particles than theirs take seconds */
-} decks[] = {{of_bodies, 2, 2}, {of_openings, 4, 2}, {of_equilibria, 1, 0}};
+} decks[] = {{of_bodies, 2, 2}, {of_openings, 4, 2}, {of_equilibria, 1, 0}, {of_liquid, 6, 6}};
 
 enum { DECKS = sizeof decks / sizeof decks[0] };
 

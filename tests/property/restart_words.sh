@@ -75,6 +75,12 @@ cp "$here/../decks/sph/laplace_2d.mpm" coverage/drop.mpm
 compare "smoothed particles: a drop" coverage/drop.mpm ""
 cp "$here/../decks/sph/heat_plates.mpm" coverage/plates.mpm
 compare "smoothed particles: heat" coverage/plates.mpm ""
+sed '/^dtfx/d; s/^sph/sph hrat 1.3 hsra 1.9 cfl 0.3 delt 0.1 grad jitt 0.02 7 vsmo on shif 0.2 csfe 0.2 latc on vhea on powe 1e9 redu 6800 \
+    swel 1 cycl 0.01 1e4 stre 1 1 1 0.98/' coverage/sph_beam.mpm >coverage/beam.mpm
+compare "smoothed particles: a beam, and what goes with it" coverage/beam.mpm ""
+sed '/^dtfx/d; s/^sph/sph pgra shep visc morr inte thes tens on/; s/csf bala/csf thes dept off/; s/heat enth/heat appa/; s/rela on/mref start mcfa 0.2/' \
+    coverage/sph_beam.mpm >coverage/thesis.mpm
+compare "smoothed particles: a beam, of the dissertation" coverage/thesis.mpm ""
 
 # compared in restart.sh, to their end
 sed 's/!.*//' "$here/property/equilibria.mpm" "$here/property/identity.mpm" "$here/decks/coverage/build_points.mpm" |
@@ -84,7 +90,9 @@ sed 's/!.*//' "$here/property/equilibria.mpm" "$here/property/identity.mpm" "$he
 
 laws=$("$mpm3d" --help | sed -n '/^Laws/,/^$/p' | awk 'NR > 1 && NF { print substr($1, 1, 4) }')
 [ "$laws" ] || laws=$(grep -o '^extern const struct law .*;' "$here/../src/material/law.h" | tr -d ';,' | tr ' ' '\n' | sed -n 's/^law_//p')
-for word in $laws usl usf musl gimp cp bimp sgmp tlmp uvfp smal jaum exac xfer pic apic blen bbar cont lagr othe join lite drda ndam damp \
+words=$("$mpm3d" --help sph | sed -n 's/^  \([a-z][a-z0-9]*\) .*/\1/p' | grep -v '^word$')
+[ "$words" ] || { echo "FAIL --help sph lists no words"; failed=1; missing=1; }
+for word in $laws $words usl usf musl gimp cp bimp sgmp tlmp uvfp smal jaum exac xfer pic apic blen bbar cont lagr othe join lite drda ndam damp \
     mscl dtfx dtmi qulo quli lost drop keep ghos open poin grou laye all sett buil scan rast resi phas ther cool fixn quas seos deto load \
     grav face velo para smoo curx; do
     grep -qx "$word" seen || { echo "FAIL no deck with '$word' was compared"; failed=1; missing=1; }
