@@ -76,10 +76,12 @@ static void put_track(const struct sph *sph, double *value)
 
 static void look(struct run *run)
 {
-    const struct sph *sph = run->sph;
+    struct sph *sph = run->sph;
     run->course = (struct run_course){sph->step, sph->time, sph->time_step, sph->budget.removed};
     run->totals.time = sph->time;
     put_totals(&sph->budget, run->totals.value);
+    if (shows_any(run->scene, TOTAL_DETACHED, TOTAL_DETACHED))
+        run->totals.value[TOTAL_DETACHED] = (double)sph_detached(sph);
     if (shows_any(run->scene, TOTAL_POOL_LENGTH, TOTAL_POOL_DEPTH))
         put_pool(sph, run->totals.value);
     if (shows_any(run->scene, TOTAL_FUSED_LENGTH, TOTAL_ROUGHNESS))

@@ -80,7 +80,7 @@ void summary_sph_end(const struct run *run, double seconds, enum status status, 
         print_heat(sph, stream);
     fprintf(stream, "%s after %ld steps at time %.6E: ", summary_ending(status), sph->step, sph->time);
     if (budget->removed > 0)
-        fprintf(stream, "%ld particles left the grid and are removed, with mass %.3g", budget->removed, budget->removed_mass);
+        fprintf(stream, "%ld particles left the grid or came off, and are removed, with mass %.3g", budget->removed, budget->removed_mass);
     else
         fprintf(stream, "no particle lost");
     if (!sph->words->freezes_flow && isfinite(budget->least_density_ratio)) /* some fluid that flows */

@@ -198,18 +198,14 @@ static void keep_shape(struct reader *reader, const struct deck_word *word, cons
 /* --- beds --- */
 
 /* The words `pick k of n` behind a bed; false after an error. */
-static bool read_pick(struct reader *reader, struct bed *bed, const char *owner)
+static bool read_pick(struct reader *reader, struct bed *bed)
 {
     static const char *const names[] = {"pick", NULL};
     static const struct argument arguments[] = {{"k", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {"n", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}};
     struct value values[KEYWORD_ARGUMENTS];
     bed->pick = bed->among = 1;
-    if (reader_optional(reader, names) < 0) {
-        if (reader_at_line_end(reader))
-            return true;
-        reader_expect(reader, owner, "pick");
-        return false;
-    }
+    if (reader_optional(reader, names) < 0)
+        return true;
     if (!reader_values(reader, arguments, "pick", values))
         return false;
     bed->pick = values[0].integer;
@@ -255,7 +251,7 @@ static void read_bed(struct reader *reader, const struct deck_word *word, const 
     if (bed.least > bed.most)
         diagnostics_error(reader->diagnostics, values[floor + 1].word.place, "the least radius, %g, is above the largest, %g", bed.least,
                           bed.most);
-    else if (read_pick(reader, &bed, is_flat ? "disc" : "ball"))
+    else if (read_pick(reader, &bed))
         add_grains(reader, word, &bed);
 }
 

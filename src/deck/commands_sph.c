@@ -80,8 +80,6 @@ static void read_jitter(struct reader *reader, const struct deck_word *word, con
     reader->scene->sph.jitter = values[0].real;
     reader->scene->sph.seed = values[1].integer;
     reader->scene->sph.jitters_solids = reader_optional(reader, names) == 0;
-    if (!reader_at_line_end(reader))
-        reader_expect(reader, "jitt", "solids");
 }
 
 /* --- walls and bodies --- */
@@ -284,6 +282,9 @@ const struct keyword sph_keywords[] = {
     {.name = "froz", .long_name = "frozen", SWITCH(freezes_flow), .doc = "velocities stay zero: conduction alone (off)"},
     {.name = "mush", .arguments = LIST(NUMBER("drag", "1/time", LIMIT_NOT_NEGATIVE)), .field = FIELD(mush_drag),
      .doc = "drag of the mush K0 (1 - s)^2/(s^3 + 0.001), s liquid fraction; 0: none (0)"},
+    {.name = "ejec", .long_name = "ejected", .arguments = LIST(NUMBER("T", "temperature", LIMIT_NOT_NEGATIVE)), .field = FIELD(ejected_above),
+     .doc = "drops that came off the metal are removed when they are hotter than this, with their heat: they would only shade it; 0: none "
+            "(0; 6000 in the dissertation)"},
     {.name = "base", .arguments = LIST(LENGTH("height")), .field = FIELD(base),
      .doc = "height of the surface below which penetration (curv pene) is measured (0)"},
     {.name = "jitt", .long_name = "jitter",

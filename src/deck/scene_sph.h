@@ -113,6 +113,7 @@ struct scene_sph {
     double jitter;            /* of the start, in spacings */
     long seed;
     bool jitters_solids;
+    double ejected_above;     /* what came off the metal and is hotter is removed; 0: nothing */
     double base;              /* height of the surface from which penetration is measured */
     double volume_heat;       /* power per volume everywhere */
     struct scene_beam beam;

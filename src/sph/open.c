@@ -363,6 +363,7 @@ void sph_close(struct sph *sph)
         memory_free(arrays[i]);
     memory_free(sph->beside);
     memory_free(sph->removed);
+    memory_free(sph->clusters);
     memory_free(sph->band);
     memory_free(sph->is_kept);
     memory_free(sph->ring);

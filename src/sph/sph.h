@@ -102,6 +102,7 @@ struct sph {
     const char *limiting; /* what limits the time step, for the log */
     double updates;     /* particles that took part, summed over steps */
     struct sph_budget budget;
+    int32_t *clusters;  /* labels of what belongs together, and a queue; made when first needed */
     int32_t *removed;   /* ids of particles that left the grid, as they left (since the restart: those before are in the
                          * file); NULL where the scene does not list them */
     struct sph_powers powers;
@@ -180,6 +181,10 @@ void heat_advance(struct sph *sph, double time_step); /* enthalpy, temperature, 
 void heat_free(struct sph *sph);
 void laser_free(struct sph *sph);
 
+/* Takes out fluid that left the grid; fluid that came off the metal and is hotter than the deck's limit (remove.c). */
+void remove_outsiders(struct sph *sph);
+void remove_ejected(struct sph *sph);
+
 /* The largest time step that is stable (spec 12), and what limits it. */
 double limits_time_step(struct sph *sph);
 
@@ -196,6 +201,9 @@ void sph_exchange(struct sph *sph, struct checkpoint *checkpoint);
 
 /* Energy of heat that is not accounted for, relative to what came in or was there. */
 double sph_heat_error(const struct sph *sph);
+
+/* How many particles hang together neither with a solid nor a wall; without those, with the largest piece. */
+long sph_detached(struct sph *sph);
 
 /* Extents along the axes of what is at least half liquid of materials that melt, a spacing more than those of its
  * particles' places; 0 where there is none. */

@@ -62,33 +62,6 @@ static void find_heat(struct sph *sph)
     heat_flow(sph);
 }
 
-static bool is_outside(const struct sph *sph, size_t p)
-{
-    const double *grid = sph->scene->grid;
-    for (int a = sph->period > 0 ? 1 : 0; a < sph->dimension; a++)
-        if (sph->columns.x[a][p] < grid[2 * a] || sph->columns.x[a][p] > grid[2 * a + 1])
-            return true;
-    return false;
-}
-
-/* Fluid that left the grid takes part in nothing any more: without volume it is in no sum. */
-static void remove_outsiders(struct sph *sph)
-{
-    const struct sph_columns *c = &sph->columns;
-    struct sph_budget *budget = &sph->budget;
-    for (size_t p = 0; p < sph->store->count; p++) {
-        if (c->state[p] != SPH_FLUID || !is_outside(sph, p))
-            continue;
-        c->state[p] = SPH_REMOVED;
-        c->volume[p] = 0;
-        if (sph->removed)
-            sph->removed[budget->removed] = sph->store->integer[COLUMN_ID][p];
-        budget->removed++;
-        budget->removed_mass += c->mass[p];
-        budget->removed_heat += c->enthalpy ? c->mass[p] * c->enthalpy[p] : 0;
-    }
-}
-
 void sph_step(struct sph *sph)
 {
     move_neighbours(sph);
@@ -102,6 +75,7 @@ void sph_step(struct sph *sph)
     if (sph->words->heat != HEAT_OFF)
         heat_advance(sph, sph->time_step);
     remove_outsiders(sph);
+    remove_ejected(sph);
     sph->time += sph->time_step;
     sph->step++;
     sph->taken_step = sph->time_step;
