@@ -75,7 +75,10 @@ void summary_sph_end(const struct run *run, double seconds, enum status status, 
     const struct sph *sph = run->sph;
     const struct sph_budget *budget = &sph->budget;
     summary_timers(sph->updates, &run->timers, seconds, stream);
-    fprintf(stream, "neighbours listed %ld times; the last time step was limited by %s\n", sph->neighbours->builds, sph->limiting);
+    fprintf(stream, "neighbours listed %ld times; the last time step was limited by %s", sph->neighbours->builds, sph->limiting);
+    if (sph->words->adapts_sound)
+        fprintf(stream, "; the sound speed was %.4g at the start and is %.4g", sph->first_sound, sph->sound_speed);
+    fprintf(stream, "\n");
     if (sph->words->heat != HEAT_OFF)
         print_heat(sph, stream);
     fprintf(stream, "%s after %ld steps at time %.6E: ", summary_ending(status), sph->step, sph->time);

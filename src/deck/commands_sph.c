@@ -32,7 +32,7 @@ static const char *const masses[] = {[MASS_AT_START] = "start", [MASS_AT_SOLIDUS
 static void read_sound(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     static const struct argument speed[] = {NUMBER("speed", "length/time", LIMIT_POSITIVE), {0}};
-    static const char *const automatic[] = {"auto", NULL};
+    static const char *const automatic[] = {"auto", NULL}, *const adaptive[] = {"adap", NULL};
     struct value value[2];
     (void)word;
     (void)values;
@@ -40,6 +40,7 @@ static void read_sound(struct reader *reader, const struct deck_word *word, cons
         reader->scene->sph.sound_speed = 0;
     else if (reader_values(reader, speed, "c0", value))
         reader->scene->sph.sound_speed = value[0].real;
+    reader->scene->sph.adapts_sound = reader_optional(reader, adaptive) == 0;
 }
 
 static void read_diffusion(struct reader *reader, const struct deck_word *word, const struct value *values)
@@ -235,7 +236,8 @@ const struct keyword sph_keywords[] = {
     {.name = "hsra", .long_name = "hsratio", .arguments = LIST(NUMBER("ratio", NULL, LIMIT_AT_LEAST_ONE)), .field = FIELD(wide_smoothing),
      .doc = "the same of the wide kernel of normals and curvature (1.8)"},
     {.name = "c0", .apply = read_sound,
-     .doc = "`c0 speed`: sound speed, ten times the fastest flow or more; `c0 auto`: found from the scene at its start (default)"},
+     .doc = "`c0 speed`: sound speed, ten times the fastest flow or more; `c0 auto`: found from the scene at its start (default). With "
+            "`adapt` behind it changes by and by to what the flow needs: densities within a hundredth of their reference"},
     {.name = "delt", .long_name = "delta", .arguments = LIST(NUMBER("delta", NULL, LIMIT_NOT_NEGATIVE)), .field = FIELD(density_diffusion),
      .apply = read_diffusion,
      .doc = "diffusion of density (0.1); with `grad` behind it gradients are kept, which gravity needs"},

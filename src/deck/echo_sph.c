@@ -122,10 +122,12 @@ void echo_sph(const struct scene *scene, FILE *stream)
         if ((row->choice || row->field != KEYWORD_NO_FIELD) && !is_left_out)
             echo_word(scene, row, stream);
     }
+    fprintf(stream, "  c0");
     if (sph->sound_speed > 0)
-        print_line(stream, "  c0", &sph->sound_speed, 1);
+        echo_numbers(stream, &sph->sound_speed, 1);
     else
-        fprintf(stream, "  c0 auto\n");
+        fprintf(stream, " auto");
+    fprintf(stream, "%s\n", sph->adapts_sound ? " adapt" : "");
     if (sph->radiates)
         print_line(stream, "  radi", (double[]){sph->emissivity, sph->ambient}, 2);
     fprintf(stream, "  jitt");

@@ -80,6 +80,7 @@ struct scene_sph {
     double smoothing;         /* h over the spacing */
     double wide_smoothing;    /* the same of the surface's geometry */
     double sound_speed;       /* c0; 0: found from the scene */
+    bool adapts_sound;
     double density_diffusion; /* delta */
     bool diffuses_gradient;   /* s = 1: with renormalised gradients */
     enum pressure_form pressure;

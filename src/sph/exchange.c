@@ -14,6 +14,7 @@ static const struct {
 } fields[] = {
     FIELD(step),       FIELD(time),         FIELD(time_step),    FIELD(taken_step), FIELD(first_time_step),
     FIELD(stable_step), FIELD(sound_speed), FIELD(updates),     FIELD(budget),     FIELD(start_heat),
+    FIELD(wanted_sound),
 };
 
 /* Whether a state that was read is one, and as many are removed as the budget says. */

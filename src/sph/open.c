@@ -14,8 +14,6 @@ static const double SKIN = 0.25;
 static const double LONGEST = 1.5;
 /* Fewer particles than this are not worth a second thread. */
 enum { SHARED_PARTICLES = 4000 };
-/* c0 found from the scene makes densities change by less than about this. */
-static const double COMPRESSION = 0.01;
 
 /* --- what the scene needs --- */
 
@@ -238,36 +236,7 @@ void sph_bind(struct sph *sph)
     sph->columns.fused = store->integer[COLUMN_FUSED];
 }
 
-/* --- sound --- */
-
-/* What makes pressure: speeds, hydrostatic columns, surface tension of drops of a few spacings (spec 12). */
-static double sound_speed_of_scene(const struct sph *sph)
-{
-    double most = 0, low[3], high[3];
-    const struct sph_columns *c = &sph->columns;
-    for (int a = 0; a < 3; a++)
-        low[a] = DBL_MAX, high[a] = -DBL_MAX;
-    for (size_t p = 0; p < sph->store->count; p++) {
-        double speed = 0;
-        for (int a = 0; a < sph->dimension; a++) {
-            low[a] = fmin(low[a], c->x[a][p]);
-            high[a] = fmax(high[a], c->x[a][p]);
-            speed += c->v[a][p] * c->v[a][p];
-        }
-        most = fmax(most, speed);
-    }
-    for (size_t b = 0; b < sph->scene->n_bodies; b++) {
-        const struct properties *properties = sph->bodies[b].properties;
-        double fall = 0;
-        for (int a = 0; a < sph->dimension; a++)
-            fall += fabs(sph->bodies[b].gravity[a]) * (high[a] - low[a]);
-        const double temperature = properties->melts ? properties->liquidus : column_row(COLUMN_TEMPERATURE)->initial;
-        const double density = property_value(&properties->tables[PROPERTY_DENSITY], temperature);
-        const double tension = sph->words->surface == SURFACE_OFF ? 0 : properties_surface_tension(properties, temperature);
-        most = fmax(most, fmax(2 * fall, tension / (2 * sph->smoothing * density)));
-    }
-    return sqrt(most / COMPRESSION);
-}
+/* --- numbers --- */
 
 static void choose_numbers(struct sph *sph)
 {
@@ -276,7 +245,8 @@ static void choose_numbers(struct sph *sph)
     sph->wide = kernel_of(words->wide_smoothing * sph->spacing, sph->dimension);
     sph->self_value = kernel_value(&sph->kernel, 0);
     sph->courant = words->courant > 0 ? words->courant : words->integrator == INTEGRATOR_STAGGERED ? 0.4 : 0.1;
-    sph->sound_speed = words->sound_speed > 0 ? words->sound_speed : sound_speed_of_scene(sph);
+    sph->sound_speed = words->sound_speed > 0 ? words->sound_speed : sound_of_scene(sph);
+    sph->first_sound = sph->sound_speed;
     sph->needs_normals = needs_band(words) || words->shifting > 0;
     for (size_t p = 0; p < sph->store->count; p++)
         sph->has_fixed = sph->has_fixed || sph->columns.state[p] != SPH_FLUID;

@@ -88,6 +88,7 @@ struct sph {
     struct kernel kernel, wide; /* with h and h_s of the start; pairs with varying h make their own */
     double self_value;          /* W(0) of kernel */
     double sound_speed;
+    double first_sound, wanted_sound; /* at the start; what the steps since the last change want (sound.c) */
     double courant;
     bool is_shared;             /* threads share the work: there is enough of it, or a number was asked for */
     bool has_fixed;             /* walls or solids */
@@ -184,6 +185,10 @@ void laser_free(struct sph *sph);
 /* Takes out fluid that left the grid; fluid that came off the metal and is hotter than the deck's limit (remove.c). */
 void remove_outsiders(struct sph *sph);
 void remove_ejected(struct sph *sph);
+
+/* The sound speed that a scene needs as it stands; changes it slowly to what the last steps need, where the deck says so. */
+double sound_of_scene(const struct sph *sph);
+void sound_adapt(struct sph *sph);
 
 /* The largest time step that is stable (spec 12), and what limits it. */
 double limits_time_step(struct sph *sph);

@@ -83,6 +83,7 @@ void sph_step(struct sph *sph)
 
     timers_enter(sph->timers, PHASE_SUMS);
     budget_update(sph);
+    sound_adapt(sph);
     sph->time_step = limits_time_step(sph);
     timers_enter(sph->timers, PHASE_OTHER);
 }

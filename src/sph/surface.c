@@ -23,8 +23,8 @@ static const double MOST_FILLED = 0.97, LEAST_CORRECTION = 0.5;
 
 enum { KEPT = 1, THIN = 2 };
 
-/* What is found of a particle: nothing; the normal for its area, anew only where something around it moves; normal; its
- * curvature too; all that a force takes. */
+/* What is found of a particle: nothing; the normal for its area; the normal for curvatures beside it; its curvature too; all
+ * that a force takes. */
 enum { RING_NONE, RING_AREA, RING_NORMAL, RING_CURVATURE, RING_FORCE };
 
 /* --- who is looked at --- */
@@ -142,6 +142,7 @@ static void compact(struct sph *sph)
             continue;
         }
         c->wide_shepard[a] = 0;
+        sph->saw_wide_motion[a] = true;
         for (int i = 0; i < 3; i++)
             c->wide_normal[i][a] = 0;
     }
@@ -150,10 +151,10 @@ static void compact(struct sph *sph)
 
 /* --- normals --- */
 
-/* Whether the wide normal of the last step is still that of a particle which only its area is asked of. */
+/* Whether the wide normal of the last step is still that of a wall or solid. */
 static bool is_as_before(struct sph *sph, size_t a)
 {
-    if (sph->ring[a] != RING_AREA) {
+    if (sph_moves(sph, a)) {
         sph->saw_wide_motion[a] = true;
         return false;
     }

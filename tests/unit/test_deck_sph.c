@@ -87,7 +87,7 @@ static void test_defaults(void)
 static const char full[] =
     HEAD "mate 1 flui 2 .1\n"
     "prop 1 dens 2 100 3 200 2 extr prop 1 capa 1 0 7 prop 1 cond 1 0 4 prop 1 surf 2 0 1 9 .5 prop 1 melt 150 160 40 prop 1 boil 300 5 .1\n" BODIES
-    "sph dime 2 hrat 1.5 hsra 2 c0 30 delt .2 grad pgra shep visc morr inte thes cfl .05 csf thes dept off film off csfe .3 mara on heat appa\n"
+    "sph dime 2 hrat 1.5 hsra 2 c0 30 adapt delt .2 grad pgra shep visc morr inte thes cfl .05 csf thes dept off film off csfe .3 mara on heat appa\n"
     "latc on vhea on mcfa .2 rela on redu 1.5 shif .3 tens on vsmo on radi .4 290 evap 1e5 froz on mush 9 base -3 jitt .1 5 solids\n"
     "peri on powe 8 wall 2 velo 1 2 3 temp 120 nost\ntemp 1 155 swel 1 cycl .1 2 stre 1 1 2 3\n"
     "beam 150 .5 .3 alpha 4 line .1 bins 1.5\npath 0 1 2 3 4 5 6 7\npath 1 2 5 6 7 5 6 7 ends\n"
@@ -96,7 +96,7 @@ static const char full[] =
 static void test_flow(const struct scene_sph *sph)
 {
     check_true("words: lengths", sph->dimension == 2 && sph->smoothing == 1.5 && sph->wide_smoothing == 2);
-    check_true("words: flow", sph->sound_speed == 30 && sph->density_diffusion == 0.2 && sph->diffuses_gradient
+    check_true("words: flow", sph->sound_speed == 30 && sph->adapts_sound && sph->density_diffusion == 0.2 && sph->diffuses_gradient
                                   && sph->pressure == PRESSURE_SHEPARD && sph->viscosity == VISCOSITY_MORRIS
                                   && sph->integrator == INTEGRATOR_PREDICTED && sph->courant == 0.05 && sph->shifting == 0.3
                                   && sph->cuts_tension && sph->varies_smoothing && sph->freezes_flow && sph->is_periodic);
