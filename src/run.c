@@ -191,7 +191,7 @@ static enum status start_output(struct run *run)
 {
     const struct scene *scene = run->scene;
     run->is_under_way = true;
-    if (scene->writes_vtk && !vtk_write_grid(&run->vtk, scene))
+    if (scene->writes_vtk && scene->method == METHOD_MPM && !vtk_write_grid(&run->vtk, scene))
         return STATUS_FILE;
     if (scene->writes_animation)
         animation_header(&run->animation, scene);

@@ -212,8 +212,8 @@ const struct keyword output_keywords[] = {
      .arguments = (const struct argument[]){{"digits", NULL, ARGUMENT_INTEGER, LIMIT_DIGITS}, {0}},
      .field = offsetof(struct scene, digits), .doc = "significant digits in the tables (7; MPM3D-F90 has 4)"},
     {.name = "smoo", .methods = METHODS_MPM, .apply = read_smoothing, .doc = "adds a smoothed pressure to the ParaView files"},
-    {.name = "para", .methods = METHODS_MPM, .long_name = "paraview", .apply = read_paraview,
-     .doc = "write ParaView files job_anim_N.vtu and job_anim.pvd; `para ascii` or `para binary` (by size)"},
+    {.name = "para", .long_name = "paraview", .apply = read_paraview,
+     .doc = "write ParaView files job_anim_N.vtu and job_anim.pvd; `para ascii` or `para binary` (by size). With meth sph the results of outr stand in them too"},
     {.name = "rest", .long_name = "restart", .apply = read_restart,
      .doc = "`rest every n steps` or `rest every t time`: then, and at the end, writes a checkpoint job.rest to go on "
             "from with mpm3d --restart job.rest job.mpm",

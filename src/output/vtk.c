@@ -2,8 +2,10 @@
 #define _POSIX_C_SOURCE 200809L
 #include "output/vtk.h"
 #include "base/memory.h"
+#include "base/methods.h"
 #include "base/status.h"
 #include "base/tensor.h"
+#include "sph/state.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -117,6 +119,7 @@ struct particle_array {
     const char *result; /* its value is that of a result, or */
     double (*value)(const struct result_source *source, size_t p);
     double sign;
+    unsigned methods; /* METHODS_... that have it; 0: those of the result, or all */
 };
 
 /* The particles of a file, in the order of their ids: places in memory. */
@@ -126,12 +129,18 @@ struct shown {
     size_t count;
 };
 
+/* The files of material points show those that left the grid too, as those of MPM3D-F90 do. */
+static bool is_removed(const struct store *store, size_t p)
+{
+    return store_has(store, COLUMN_STATE) && store->integer[COLUMN_STATE][p] == SPH_REMOVED;
+}
+
 static struct shown list_shown(const struct result_source *source)
 {
     const struct store *store = source->store;
     struct shown shown = {source, memory_array(store->count, sizeof *shown.places, "output"), 0};
     for (size_t id = 0; id < store->count; id++)
-        if (result_is_shown(source, (size_t)store->index_of_id[id]))
+        if (result_is_shown(source, (size_t)store->index_of_id[id]) && !is_removed(store, (size_t)store->index_of_id[id]))
             shown.places[shown.count++] = store->index_of_id[id];
     return shown;
 }
@@ -180,18 +189,18 @@ static const struct particle_array particle_arrays[] = {
     {.name = "seqv", .result = "seqv", .sign = 1},
     {.name = "epeff", .result = "epef", .sign = 1},
     {.name = "pressure", .result = "pres", .sign = 1},
-    {.name = "Smoothpressure", .value = smoothed_pressure, .sign = 1},
+    {.name = "Smoothpressure", .value = smoothed_pressure, .sign = 1, .methods = METHODS_MPM},
     {.name = "MeanNormalStress", .result = "pres", .sign = -1},
-    {.name = "SmoothMeanNormalStress", .value = smoothed_pressure, .sign = -1},
+    {.name = "SmoothMeanNormalStress", .value = smoothed_pressure, .sign = -1, .methods = METHODS_MPM},
     {.name = "vx", .result = "velx", .sign = 1},
     {.name = "vy", .result = "vely", .sign = 1},
     {.name = "vz", .result = "velz", .sign = 1},
     {.name = "disx", .result = "disx", .sign = 1},
     {.name = "disy", .result = "disy", .sign = 1},
     {.name = "disz", .result = "disz", .sign = 1},
-    {.name = "fxpx", .value = load_x, .sign = 1},
-    {.name = "fxpy", .value = load_y, .sign = 1},
-    {.name = "fxpz", .value = load_z, .sign = 1},
+    {.name = "fxpx", .value = load_x, .sign = 1, .methods = METHODS_MPM},
+    {.name = "fxpy", .value = load_y, .sign = 1, .methods = METHODS_MPM},
+    {.name = "fxpz", .value = load_z, .sign = 1, .methods = METHODS_MPM},
     {.name = "vol", .result = "volu", .sign = 1},
     {.name = "celsius_t", .result = "cels", .sign = 1},
     {.name = "damage", .result = "damg", .sign = 1},
@@ -204,6 +213,34 @@ static const struct particle_array particle_arrays[] = {
 };
 
 enum { PARTICLE_ARRAYS = sizeof particle_arrays / sizeof particle_arrays[0] };
+
+static bool has_array(const struct scene *scene, const struct particle_array *array)
+{
+    const unsigned methods = array->result ? result_find(array->result)->methods : array->methods;
+    return methods_include(methods, scene->method);
+}
+
+/* Whether a result of the deck stands in the table above, under a name that users of MPM3D know. */
+static bool is_listed(const struct result *result)
+{
+    bool is_listed = false;
+    for (int i = 0; i < PARTICLE_ARRAYS; i++)
+        is_listed = is_listed || (particle_arrays[i].result && result_find(particle_arrays[i].result) == result);
+    return is_listed;
+}
+
+/* The arrays of a scene: those of the table, and with smoothed particles the deck's other results. Returns how many. */
+static int choose_arrays(const struct scene *scene, struct particle_array *chosen)
+{
+    int n = 0;
+    for (int i = 0; i < PARTICLE_ARRAYS; i++)
+        if (has_array(scene, &particle_arrays[i]))
+            chosen[n++] = particle_arrays[i];
+    for (size_t i = 0; i < scene->n_results && scene->method != METHOD_MPM; i++)
+        if (!is_listed(scene->results[i]))
+            chosen[n++] = (struct particle_array){.name = scene->results[i]->name, .result = scene->results[i]->name, .sign = 1};
+    return n;
+}
 
 /* Particles in the order of their ids. */
 static double particle_value(const void *context, size_t i, int component)
@@ -310,12 +347,15 @@ static void write_tree(struct writer *writer, const struct data_array *point_dat
 
 static bool write_particles(const struct scene *scene, const struct result_source *source, const char *name)
 {
-    struct particle_context contexts[PARTICLE_ARRAYS];
-    struct data_array arrays[PARTICLE_ARRAYS];
+    const size_t most = PARTICLE_ARRAYS + scene->n_results;
+    struct particle_array *chosen = memory_array(most, sizeof *chosen, "output");
+    struct particle_context *contexts = memory_array(most, sizeof *contexts, "output");
+    struct data_array *arrays = memory_array(most, sizeof *arrays, "output");
     struct shown shown = list_shown(source);
     const size_t count = shown.count;
-    for (int i = 0; i < PARTICLE_ARRAYS; i++) {
-        const struct particle_array *array = &particle_arrays[i];
+    const int n_arrays = choose_arrays(scene, chosen);
+    for (int i = 0; i < n_arrays; i++) {
+        const struct particle_array *array = &chosen[i];
         contexts[i] = (struct particle_context){&shown, array, array->result ? result_find(array->result)->value : array->value};
         arrays[i] = (struct data_array){"Float64", array->name, 1, count, particle_value, &contexts[i]};
     }
@@ -327,8 +367,11 @@ static bool write_particles(const struct scene *scene, const struct result_sourc
     bool is_binary = scene->vtk_format == VTK_BINARY || (scene->vtk_format == VTK_AUTO && count > LARGEST_TEXT);
     struct writer writer = {open_part(name, &part), is_binary, (int)scene->digits, 0};
     if (writer.stream)
-        write_tree(&writer, arrays, PARTICLE_ARRAYS, &points, cells);
+        write_tree(&writer, arrays, n_arrays, &points, cells);
     memory_free(shown.places);
+    memory_free(arrays);
+    memory_free(contexts);
+    memory_free(chosen);
     return close_part(writer.stream, name, part);
 }
 

@@ -4,6 +4,7 @@
 # file. Skipped where no python3 has VTK (Debian: python3-vtk9). sh tests/cli/vtk.sh BUILD
 build=$(cd "$1" && pwd) || exit 2
 tool=$(cd "$(dirname "$0")/../../tools" && pwd)/check_vtk.py
+bed=$(cd "$(dirname "$0")/../decks/coverage" && pwd)/sph_bed.mpm
 folder=$(mktemp -d) || exit 2
 trap 'rm -rf "$folder"' EXIT INT TERM
 cd "$folder" || exit 2
@@ -54,6 +55,13 @@ END
     check "$form: 72 points, 72 cells, 27 arrays" "$python" "$tool" ${form}_anim_2.vtu 72 72 27
     check "$form: grid of 60 nodes and 24 cells" "$python" "$tool" ${form}_Grid.vtu 60 24 0
 done
+for form in ascii binary; do
+    { grep -v endinput "$bed"; printf 'outr stat outr pres outr liqu\npara %s\nendi\n' $form; } >bed.mpm
+    check "smoothed particles, $form: runs" "$build/mpm3d" --quiet bed.mpm
+    check "smoothed particles, $form: all values as in the animation file" "$python" "$tool" bed_anim.pvd bed_anim.dat
+    check "smoothed particles, $form: 16 arrays, eight particles removed" "$python" "$tool" bed_anim_2.vtu 872 872 16
+done
+check "smoothed particles have no background grid" [ ! -e bed_Grid.vtu ]
 check "binary data is appended" grep -q '<AppendedData' binary_anim_1.vtu
 check "text data is not" sh -c '! grep -q "<AppendedData" ascii_anim_1.vtu'
 sed 's/Name="vx"/Name="vy"/' ascii_anim_1.vtu >twice.vtu

@@ -249,7 +249,7 @@ add not_there 4 "" "cannot read 'not_there.mpm': No such file"
 
 # --- running, in two rows: a deck is short, starting the program is not ---
 limit=
-command -v timeout >/dev/null && limit='timeout 2'
+command -v timeout >/dev/null && limit='timeout 30'
 cut -f 1 cases | awk '{ print >("names" NR % 2) }'
 run_row() {
     while read -r name; do
@@ -294,7 +294,7 @@ awk '
             name = field[1]; fragment = field[4]; reason = first = ""
             expected = split(field[3], place, " ")
             read_messages(name ".err")
-            if (status[name] == 124) fail("more than 2 seconds")
+            if (status[name] == 124) fail("more than 30 seconds")
             if (status[name] != field[2]) fail("exit status " status[name] " instead of " field[2])
             if (index(first, fragment) == 0) fail("no message with: " fragment)
             if (place[1] != "*") {
