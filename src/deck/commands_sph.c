@@ -254,6 +254,9 @@ const struct keyword sph_keywords[] = {
     {.name = "dept", .long_name = "depth", SWITCH(corrects_depth), .doc = "curvature corrected for its depth below the surface (on)"},
     {.name = "csfe", .long_name = "csfeps", .arguments = LIST(NUMBER("eps", NULL, LIMIT_POSITIVE)), .field = FIELD(surface_threshold),
      .doc = "normals times h_s below this make no curvature (0.1)"},
+    {.name = "expa", .long_name = "expansion", SWITCH(opens_expansion),
+     .doc = "what a particle of a free surface expands or shrinks by heat goes into the open; else it pushes those below, and hot "
+            "layers come off (on)"},
     {.name = "film", .long_name = "films", SWITCH(holds_films),
      .doc = "surface tension acts on films of one or two layers of particles too, whose curvature is uncertain (on)"},
     {.name = "mara", .long_name = "marangoni", SWITCH(has_marangoni), .doc = "force along the surface where its tension changes (off)"},

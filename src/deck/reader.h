@@ -13,7 +13,7 @@ enum { READER_DEPTH = 4 }; /* of blocks in blocks, which only wrong decks have *
 
 struct solid;
 
-enum { READER_WORDS = 40 }; /* of the block sph, at most */
+enum { READER_WORDS = 64 }; /* of the block sph, at most */
 
 /* A word or result that not all methods have, where it first stands. */
 struct reader_use {

@@ -19,7 +19,7 @@ struct scene *scene_open(void)
     scene->mass_scale = 1;
     scene->building = (struct scene_building){.settling = -1, .until = -1, .axis = 2};
     scene->sph = (struct scene_sph){.dimension = 3, .smoothing = 1.2, .wide_smoothing = 1.8, .density_diffusion = 0.1,
-                                    .corrects_depth = true, .holds_films = true, .surface_threshold = 0.1, .melt_sound_factor = 1, .seed = 1};
+                                    .corrects_depth = true, .holds_films = true, .opens_expansion = true, .surface_threshold = 0.1, .melt_sound_factor = 1, .seed = 1};
     return scene;
 }
 

@@ -91,6 +91,7 @@ struct scene_sph {
     enum surface_form surface;
     bool corrects_depth;
     double surface_threshold; /* eps_n */
+    bool opens_expansion;     /* particles of a free surface expand into the open, without pushing others */
     bool holds_films;         /* surface tension on films of one or two layers of particles too */
     bool has_marangoni;
     enum heat_form heat;

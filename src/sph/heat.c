@@ -96,6 +96,32 @@ static double reference_density(const struct sph *sph, size_t p, double time)
     return property_value(&body->properties->tables[PROPERTY_DENSITY], temperature_of(sph, p)) * swelling_at(body->swelling, time);
 }
 
+/* How far a particle lies at a free surface, from 0 to 1, by the sums of the last step: its normal is long, or little of
+ * its support is filled. On a lattice the first row has 1, the second, whose normal is at most 0.3, has 0. */
+static double openness_of(const struct sph *sph, size_t p)
+{
+    static const double LEAST_NORMAL = 0.3, LEAST_FILLED = 0.7;
+    const struct sph_columns *c = &sph->columns;
+    const double n0 = c->normal[0][p], n1 = c->normal[1][p], n2 = c->normal[2][p], filled = c->shepard[p];
+    if (filled <= 0) /* it was solid */
+        return 0;
+    const double length = sqrt(n0 * n0 + n1 * n1 + n2 * n2) * c->smoothing[p] / (2 * filled);
+    return fmax(0, fmin(1, fmax((length - LEAST_NORMAL) / LEAST_NORMAL, (LEAST_FILLED + 0.2 - filled) / 0.2)));
+}
+
+/* Continuity sees but one side of a particle at a free surface. To let an expansion by heat come about it would have to
+ * move away twice as fast, and ever faster while it loses sight of the others: hot layers would fly off. There the
+ * pressure is none whatever the expansion. */
+static void expand_openly(const struct sph *sph, size_t p, double change)
+{
+    const struct sph_columns *c = &sph->columns;
+    const double openness = openness_of(sph, p);
+    if (openness <= 0)
+        return;
+    c->density[p] += openness * change;
+    c->volume[p] = c->mass[p] / c->density[p];
+}
+
 void heat_properties(struct sph *sph)
 {
     const struct sph_columns *c = &sph->columns;
@@ -105,7 +131,10 @@ void heat_properties(struct sph *sph)
         const struct property_table *tables = sph->bodies[c->body[p]].properties->tables;
         const double temperature = temperature_of(sph, p);
         const bool takes_part = c->state[p] == SPH_FLUID || c->state[p] == SPH_SOLID;
+        const double before = c->reference[p];
         c->reference[p] = reference_density(sph, p, sph->time);
+        if (sph->expands_openly && c->state[p] == SPH_FLUID && c->reference[p] != before)
+            expand_openly(sph, p, c->reference[p] - before);
         c->viscosity[p] = property_value(&tables[PROPERTY_VISCOSITY], temperature);
         if (c->conductivity) /* 0 where pairs shall not conduct: walls have a way of their own */
             c->conductivity[p] = takes_part ? property_value(&tables[PROPERTY_CONDUCTIVITY], temperature) : 0;

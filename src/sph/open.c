@@ -27,6 +27,17 @@ static bool needs_band(const struct scene_sph *words)
     return words->surface != SURFACE_OFF || words->has_marangoni || words->radiates || words->evaporates;
 }
 
+/* Whether a free surface expands by heat. */
+static bool expands_openly(const struct scene_sph *words)
+{
+    return words->opens_expansion && has_heat(words) && !words->freezes_flow;
+}
+
+static bool needs_normals(const struct scene_sph *words)
+{
+    return needs_band(words) || expands_openly(words) || words->shifting > 0;
+}
+
 static uint64_t wanted_columns(const struct scene *scene)
 {
     static const enum column always[] = {COLUMN_POSITION, COLUMN_VELOCITY, COLUMN_VOLUME, COLUMN_MASS, COLUMN_DENSITY,
@@ -43,7 +54,7 @@ static uint64_t wanted_columns(const struct scene *scene)
         wanted |= column_bit(of_heat[i]);
     for (size_t i = 0; i < sizeof of_band / sizeof of_band[0] && needs_band(words); i++)
         wanted |= column_bit(of_band[i]);
-    if (needs_band(words) || words->shifting > 0)
+    if (needs_normals(words))
         wanted |= column_bit(COLUMN_NORMAL);
     if (words->beam.is_on)
         wanted |= column_bit(COLUMN_LASER_POWER);
@@ -247,7 +258,8 @@ static void choose_numbers(struct sph *sph)
     sph->courant = words->courant > 0 ? words->courant : words->integrator == INTEGRATOR_STAGGERED ? 0.4 : 0.1;
     sph->sound_speed = words->sound_speed > 0 ? words->sound_speed : sound_of_scene(sph);
     sph->first_sound = sph->sound_speed;
-    sph->needs_normals = needs_band(words) || words->shifting > 0;
+    sph->needs_normals = needs_normals(words);
+    sph->expands_openly = expands_openly(words);
     for (size_t p = 0; p < sph->store->count; p++)
         sph->has_fixed = sph->has_fixed || sph->columns.state[p] != SPH_FLUID;
     for (size_t b = 0; b < sph->scene->n_bodies; b++) {

@@ -91,9 +91,10 @@ struct sph {
     double first_sound, wanted_sound; /* at the start; what the steps since the last change want (sound.c) */
     double courant;
     bool is_shared;             /* threads share the work: there is enough of it, or a number was asked for */
+    bool expands_openly;        /* free surfaces expand by heat into the open */
     bool has_fixed;             /* walls or solids */
     bool has_moving_walls;
-    bool needs_normals;         /* for surface forces, radiation, evaporation or shifting */
+    bool needs_normals;         /* for surface forces, radiation, evaporation, open expansion or shifting */
 
     long step;
     double time;

@@ -76,7 +76,7 @@ static void test_defaults(void)
                                      && sph->pressure == PRESSURE_SYMMETRIC && sph->viscosity == VISCOSITY_MONAGHAN
                                      && sph->integrator == INTEGRATOR_STAGGERED && sph->shifting == 0 && !sph->cuts_tension
                                      && !sph->reduces_pressure && !sph->varies_smoothing && !sph->is_periodic);
-    check_true("defaults: surface", sph->surface == SURFACE_OFF && sph->corrects_depth && sph->holds_films && sph->surface_threshold == 0.1 && !sph->has_marangoni);
+    check_true("defaults: surface", sph->surface == SURFACE_OFF && sph->corrects_depth && sph->holds_films && sph->opens_expansion && sph->surface_threshold == 0.1 && !sph->has_marangoni);
     check_true("defaults: heat", sph->heat == HEAT_OFF && sph->mass == MASS_AT_START && sph->melt_sound_factor == 1 && !sph->relaxes_excess
                                      && !sph->radiates && !sph->evaporates && !sph->beam.is_on && !sph->freezes_flow);
     check_true("defaults: density and viscosity are those of the law",
@@ -87,7 +87,7 @@ static void test_defaults(void)
 static const char full[] =
     HEAD "mate 1 flui 2 .1\n"
     "prop 1 dens 2 100 3 200 2 extr prop 1 capa 1 0 7 prop 1 cond 1 0 4 prop 1 surf 2 0 1 9 .5 prop 1 melt 150 160 40 prop 1 boil 300 5 .1\n" BODIES
-    "sph dime 2 hrat 1.5 hsra 2 c0 30 adapt delt .2 grad pgra shep visc morr inte thes cfl .05 csf thes dept off film off csfe .3 mara on heat appa\n"
+    "sph dime 2 hrat 1.5 hsra 2 c0 30 adapt delt .2 grad pgra shep visc morr inte thes cfl .05 csf thes dept off film off expa off csfe .3 mara on heat appa\n"
     "latc on vhea on mcfa .2 rela on redu 1.5 shif .3 tens on vsmo on radi .4 290 evap 1e5 froz on mush 9 base -3 jitt .1 5 solids\n"
     "peri on powe 8 wall 2 velo 1 2 3 temp 120 nost\ntemp 1 155 swel 1 cycl .1 2 stre 1 1 2 3\n"
     "beam 150 .5 .3 alpha 4 line .1 bins 1.5\npath 0 1 2 3 4 5 6 7\npath 1 2 5 6 7 5 6 7 ends\n"
@@ -113,7 +113,7 @@ static void test_flow(const struct scene_sph *sph)
 static void test_heat(const struct scene_sph *sph)
 {
     const struct scene_beam *beam = &sph->beam;
-    check_true("words: surface", sph->surface == SURFACE_THESIS && !sph->corrects_depth && !sph->holds_films && sph->surface_threshold == 0.3 && sph->has_marangoni);
+    check_true("words: surface", sph->surface == SURFACE_THESIS && !sph->corrects_depth && !sph->holds_films && !sph->opens_expansion && sph->surface_threshold == 0.3 && sph->has_marangoni);
     check_true("words: heat", sph->heat == HEAT_APPARENT && sph->corrects_lattice && sph->heats_by_viscosity && sph->volume_heat == 8
                                   && sph->mush_drag == 9);
     check_true("words: melting; masses are those at the solidus",
