@@ -5,7 +5,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Frequencies, in swings in the time of the curve: the range that is searched, and its first steps. */
+/* Frequencies, in swings in the time of the curve: the range searched, and its first steps. */
 static const double FEWEST = 2, MOST = 200, STEP = 0.25;
 /* Parts of an interval that golden section leaves, and how often. */
 static const double GOLDEN = 0.61803398874989485;
@@ -108,6 +108,17 @@ static double strongest_frequency(const struct curve *curve)
     return refined(curve, mean, (best - STEP) * unit, (best + STEP) * unit);
 }
 
+static double centre(const struct curve *curve)
+{
+    return 0.5 * (curve->times[0] + curve->times[curve->count - 1]);
+}
+
+/* Size of the swing, up to a factor. */
+static double size_of(const struct curve *curve, double frequency)
+{
+    return component(curve, weighted_mean(curve), frequency) / span(curve);
+}
+
 double swing_period(const double *values, const double *times, size_t count)
 {
     const struct curve curve = {values, times, count};
@@ -124,9 +135,6 @@ double swing_decay(const double *values, const double *times, size_t count)
         ++before;
     const struct curve first = {values, times, before};
     const struct curve second = {values + before, times + before, count - before};
-    /* from the middle of the one half to that of the other; each over its own time, as it may be longer by a row */
-    const double between = 0.5 * (second.times[0] + second.times[second.count - 1] - first.times[0] - first.times[first.count - 1]);
-    const double at_first = component(&first, weighted_mean(&first), frequency) / span(&first);
-    const double at_second = component(&second, weighted_mean(&second), frequency) / span(&second);
-    return log(at_first / at_second) / between;
+    return log(size_of(&first, frequency) / size_of(&second, frequency)) /
+           (centre(&second) - centre(&first));
 }
