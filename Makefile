@@ -54,6 +54,7 @@ $(build)/tools/%.o: tools/%.c Makefile
 	@$(CC) $(CPPFLAGS) $(flags) $(CFLAGS) $(san) -c $< -o $@
 
 $(build)/tecview: $(view_objects) $(draw_objects)
+$(build)/tecstat: $(build)/tools/swing.o
 
 $(build)/tec%: $(build)/tools/tec%.o $(tecplot_objects)
 	@echo "  CC  $@"

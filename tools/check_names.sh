@@ -10,7 +10,7 @@ mpm_ faces_ motion_ stress_ shape_ contact_ smoothing_ eos_ johnson_cook_ vtk_ t
 animation_ history_ progress_ run_ summary_ account_ staggered_ building_ schedule_ transformation_
 heat_ laser_ property_ properties_ flow_ surface_ limits_ budget_ sph_ neighbours_ method_
 overlap_ light_nodes_ reference_ checkpoint_ checksum_ restart_ vector_ conjugate_ envelope_ symmetric_ stiffness_ multigrid_ rigid_ equilibrium_
-words_ tecplot_ draw_ tecview_
+words_ tecplot_ swing_ draw_ tecview_ remove_ bed_
 END
 )
 bad=$(find . -name '*.o' ! -path './tests/*' | while read -r object; do

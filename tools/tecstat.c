@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "swing.h"
 #include "tecplot_find.h"
 
 enum exit_status { DONE = 0, NO_ROWS = 1, TROUBLE = 2 };
@@ -302,6 +303,49 @@ static double strain_of(const double *displacement, const double *initial, size_
     return (far_mean - near_mean) / length;
 }
 
+/* ---- statistics of two columns ---- */
+
+/* Slope of the straight line of least squares. */
+static double slope_of(const double *values, const double *over, size_t count)
+{
+    const double value_mean = mean(values, count);
+    const double over_mean = mean(over, count);
+    long double products = 0.0L;
+    long double squares = 0.0L;
+    for (size_t i = 0; i < count; ++i) {
+        const long double distance = over[i] - over_mean;
+        products += distance * (values[i] - value_mean);
+        squares += distance * distance;
+    }
+    return (double)(products / squares);
+}
+
+static bool differs(const double *over, size_t count)
+{
+    return range(over, count) != 0.0;
+}
+
+static const struct pair_statistic {
+    const char *name;
+    double (*of)(const double *values, const double *over, size_t count);
+    bool (*is_fit)(const double *over, size_t count);
+    const char *unfit; /* said where the second variable is not fit for it */
+    bool is_initial;   /* the second variable is less the first one: coordinates at the start */
+} pair_statistics[] = {
+    {"strain", strain_of, differs, "all rows have the same initial coordinate", true},
+    {"slope", slope_of, differs, "all rows have the same value of the second variable", false},
+    {"period", swing_period, swing_has_time, "needs 8 rows or more whose times grow", false},
+    {"decay", swing_decay, swing_has_time, "needs 8 rows or more whose times grow", false},
+};
+
+static const struct pair_statistic *find_pair_statistic(const char *name)
+{
+    for (size_t i = 0; i < sizeof pair_statistics / sizeof *pair_statistics; ++i)
+        if (strcmp(name, pair_statistics[i].name) == 0)
+            return &pair_statistics[i];
+    return NULL;
+}
+
 /* ---- output ---- */
 
 static void print_number(double number)
@@ -323,22 +367,24 @@ static bool print_statistic(const struct selection *selection, const struct stat
     return true;
 }
 
-static bool print_strain(const struct selection *selection, const size_t *columns)
+static bool print_pair_statistic(const struct selection *selection,
+                                 const struct pair_statistic *statistic, const size_t *columns)
 {
-    double *displacement = values_of(selection, columns[0]);
-    double *initial = values_of(selection, columns[1]);
-    bool done = displacement != NULL && initial != NULL;
+    const size_t count = selection->row_count;
+    double *values = values_of(selection, columns[0]);
+    double *over = values_of(selection, columns[1]);
+    bool done = values != NULL && over != NULL;
     if (done) {
-        for (size_t i = 0; i < selection->row_count; ++i)
-            initial[i] -= displacement[i];
-        done = range(initial, selection->row_count) != 0.0;
+        for (size_t i = 0; i < count && statistic->is_initial; ++i)
+            over[i] -= values[i];
+        done = statistic->is_fit(over, count);
         if (done)
-            print_number(strain_of(displacement, initial, selection->row_count));
+            print_number(statistic->of(values, over, count));
         else
-            fputs("tecstat: error: strain: all rows have the same initial coordinate\n", stderr);
+            fprintf(stderr, "tecstat: error: %s: %s\n", statistic->name, statistic->unfit);
     }
-    free(initial);
-    free(displacement);
+    free(over);
+    free(values);
     return done;
 }
 
@@ -359,10 +405,10 @@ static bool print_row(const struct selection *selection, size_t number, const si
 
 /* What is to be printed: WHAT and the columns of its variables. */
 struct command {
-    const struct statistic *statistic; /* NULL for row and strain */
-    bool is_strain;
-    size_t row;         /* of the command row */
-    const char **names; /* variables, in the request */
+    const struct statistic *statistic;   /* or NULL */
+    const struct pair_statistic *of_two; /* or NULL */
+    size_t row;                          /* of the command row, which is neither */
+    const char **names;                  /* variables, in the request */
     size_t name_count;
     size_t *columns; /* likewise */
 };
@@ -384,10 +430,9 @@ static bool read_command(const struct request *request, struct command *command)
     *command = (struct command){.names = request->words + 1, .name_count = request->word_count - 1};
     if (strcmp(what, "row") == 0)
         return read_row_command(request, command);
-    if (strcmp(what, "strain") == 0) {
-        command->is_strain = true;
-        return command->name_count == 2 || complain("DISP COORD are needed after", what);
-    }
+    command->of_two = find_pair_statistic(what);
+    if (command->of_two != NULL)
+        return command->name_count == 2 || complain("two variables are needed after", what);
     command->statistic = find_statistic(what);
     if (command->statistic == NULL)
         return complain("unknown statistic (tecstat --help lists them):", what);
@@ -410,8 +455,8 @@ static bool find_columns(const struct tecplot_file *file, struct command *comman
 
 static bool print_command(const struct selection *selection, const struct command *command)
 {
-    if (command->is_strain)
-        return print_strain(selection, command->columns);
+    if (command->of_two != NULL)
+        return print_pair_statistic(selection, command->of_two, command->columns);
     if (command->statistic == NULL)
         return print_row(selection, command->row, command->columns, command->name_count);
     for (size_t i = 0; i < command->name_count; ++i)
@@ -449,6 +494,11 @@ static void usage(FILE *stream)
           "  strain       takes DISP COORD: (mean DISP over the rows with the largest COORD-DISP\n"
           "               - mean DISP over those with the smallest) / (largest - smallest);\n"
           "               rows within 1e-6 of the range from an end belong to that end\n"
+          "  slope        takes VAR OVER: that of the straight line of least squares\n"
+          "  period       takes VAR TIME: of the strongest swing that fits 2 to 200 times into\n"
+          "               the time of the rows: largest component of Fourier under a Hann window\n"
+          "  decay        takes VAR TIME: rate b of exp(-b t), from the size of that swing in the\n"
+          "               first and in the second half of the time\n"
           "\n"
           "Upper and lower case of variable names need not agree. A NaN among the values gives\n"
           "nan; --where drops rows in which VAR is NaN. A file \"-\" is standard input.\n"

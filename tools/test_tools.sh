@@ -199,6 +199,20 @@ expect stat_strain 0 "0.25" "" tecstat full.dat strain disx X
 printf 'x u\n.1 .1\n.3 .3\n1.8 -.2\n2 0\n1 0\n' >ends.dat
 expect stat_strain_mean_at_ends 0 "-0.15" "" tecstat ends.dat strain u x
 expect stat_strain_no_length 2 "" "same initial coordinate" tecstat full.dat strain Z Z
+# values 1, 2 and 6 at 0, 1 and 2: products -1 0 1 with -2 -1 3
+printf 'x v\n0 1\n1 2\n2 6\n' >line.dat
+expect stat_slope 0 "2.5" "" tecstat line.dat slope v x
+expect stat_slope_of_one_place 2 "" "slope: all rows have the same value" tecstat full.dat slope disx Z
+expect stat_slope_of_one_variable 2 "" "two variables are needed after 'slope'" tecstat line.dat slope v
+# 3 exp(-0.2 t) cos(2 pi t/0.7) on a slow drift and below quick ripples, at uneven times
+awk 'BEGIN { print "t v"; for (i = 0; i <= 1000; ++i) { t = 0.01 * i + 0.003 * sin(i)
+    printf "%.9f %.9f\n", t, 3 * exp(-0.2 * t) * cos(8.975979011 * t) + 5 + 0.1 * t + 0.3 * sin(90 * t) } }' >swing.dat
+"$tools/tecstat" swing.dat period v t >out 2>err
+if awk '{ exit !($1 > 0.6993 && $1 < 0.7007) }' out; then pass stat_period; else reject stat_period "printed $(cat out err)"; fi
+"$tools/tecstat" swing.dat decay v t >out 2>err
+if awk '{ exit !($1 > 0.198 && $1 < 0.202) }' out; then pass stat_decay; else reject stat_decay "printed $(cat out err)"; fi
+expect stat_period_of_few_rows 2 "" "period: needs 8 rows or more whose times grow" tecstat line.dat period v x
+expect stat_decay_of_no_time 2 "" "decay: needs 8 rows or more whose times grow" tecstat swing.dat decay t v
 expect stat_unknown_variable 2 "" "no variable 'pres'; the file has: X Y Z mat disx" \
     tecstat full.dat max X pres
 expect stat_no_such_zone 2 "" "no zone 3, the file has 2" tecstat full.dat --zone 3 max X
