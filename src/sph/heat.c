@@ -82,7 +82,10 @@ static double swelling_at(const struct scene_swelling *swelling, double time)
 {
     if (!swelling)
         return 1;
-    return 1 + swelling->amplitude * (swelling->is_cyclic ? sin(2 * PI * swelling->frequency * time) : time);
+    if (swelling->form == SWELLING_STEADY)
+        return 1 + swelling->amplitude * fmin(time, swelling->end);
+    const double wave = sin(2 * PI * swelling->frequency * time);
+    return 1 + swelling->amplitude * (swelling->form == SWELLING_GROWING ? time * wave : wave);
 }
 
 static double temperature_of(const struct sph *sph, size_t p)

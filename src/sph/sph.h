@@ -122,7 +122,7 @@ struct sph {
     double *seen[3];       /* velocities that pairs see: of walls and solids first their own, for the forces the mirrored ones */
     double *fluid_volume;  /* volume of fluid; 0 for walls and solids */
     unsigned char *beside; /* what moves within reach of walls and solids; NULL without them */
-    double *excess;        /* density above the reference that gives pressure; 0 for walls and solids */
+    double *excess;        /* what is diffused: density above the reference that gives pressure; 0 for walls and solids */
     double *rate;          /* of the density */
     struct sph_portion *portions; /* sums of portions of the particles (budget.c) */
 

@@ -459,19 +459,24 @@ static void test_melting_mass(bool relaxes, double factor, double expected)
 
 static void test_swelling(void)
 {
-    struct fixture *fixture = fixture_open(2, 1, 1.2, 2);
-    const struct scene_swelling cyclic = {.is_cyclic = true, .amplitude = -0.05, .frequency = 2}, steady = {.amplitude = -0.2};
-    fixture_constant(&fixture->materials[0], PROPERTY_DENSITY, 1000);
-    fixture_constant(&fixture->materials[1], PROPERTY_DENSITY, 500);
-    fixture->bodies[0].swelling = &cyclic;
-    fixture->bodies[1].swelling = &steady;
-    fixture_block(fixture, 0, SPH_FLUID, (int[]){0, 0, 0}, (int[]){1, 1, 1}, 293);
-    fixture_block(fixture, 1, SPH_FLUID, (int[]){1, 0, 0}, (int[]){2, 1, 1}, 293);
+    struct fixture *fixture = fixture_open(2, 1, 1.2, 4);
+    const struct scene_swelling cyclic = {.form = SWELLING_CYCLE, .amplitude = -0.05, .frequency = 2},
+                                growing = {.form = SWELLING_GROWING, .amplitude = -0.4, .frequency = 2},
+                                steady = {.form = SWELLING_STEADY, .amplitude = -0.2, .end = INFINITY},
+                                ended = {.form = SWELLING_STEADY, .amplitude = -0.2, .end = 0.1};
+    const struct scene_swelling *const swellings[] = {&cyclic, &steady, &growing, &ended};
+    for (int b = 0; b < 4; b++) {
+        fixture_constant(&fixture->materials[b], PROPERTY_DENSITY, b == 1 ? 500 : 1000);
+        fixture->bodies[b].swelling = swellings[b];
+        fixture_block(fixture, b, SPH_FLUID, (int[]){b, 0, 0}, (int[]){b + 1, 1, 1}, 293);
+    }
     fixture_list(fixture);
     fixture->sph.time = 0.125;
     heat_properties(&fixture->sph);
     check_near("swelling: of a sine", fixture->sph.columns.reference[0], 950, 1e-9);
     check_near("swelling: steady", fixture->sph.columns.reference[1], 487.5, 1e-9);
+    check_near("swelling: of a sine that grows", fixture->sph.columns.reference[2], 950, 1e-9);
+    check_near("swelling: ended", fixture->sph.columns.reference[3], 980, 1e-9);
     fixture_close(fixture);
 }
 
