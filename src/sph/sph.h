@@ -78,6 +78,7 @@ struct sph {
     struct neighbours *neighbours;
     struct timers *timers;
     struct sph_body *bodies;
+    double *body_heat; /* power of the heat that comes in from each body that is a wall of given temperature */
     const struct material **material_of_body;
     int *material_number_of_body;
     struct sph_columns columns;

@@ -187,12 +187,12 @@ static void test_two_materials(double ratio, double tolerance)
     fixture_close(fixture);
 }
 
-/* Two layers of conductivity 1 and 4 until nothing changes (reference heat-two-layer-steady); the flux, 1.6, follows from
- * the drop over the first layer. */
+/* Two layers of conductivity 1 and 4 until nothing changes (reference heat-two-layer-steady); the flux, 1.6, is that
+ * through the walls; the free ends of the strip conduct less. */
 static void test_two_layers(void)
 {
     static const double x[] = {0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95}, expected[] = {0.92, 0.68, 0.44, 0.2, 0.14, 0.08, 0.02};
-    const struct strip strip = {20, 12, 1.0 / 20, 1.2, 1, 0, 0, true};
+    const struct strip strip = {20, 48, 1.0 / 20, 1.5, 1, 0, 0, true};
     struct properties materials[2] = {0};
     fixture_plain_material(&materials[0], 1, 1, 1);
     fixture_plain_material(&materials[1], 1, 1, 4);
@@ -200,6 +200,8 @@ static void test_two_layers(void)
     heat_until(fixture, 1.5, 0.2 * fixture->sph.smoothing * fixture->sph.smoothing / 4);
     check_near("two layers: temperatures", largest_error(fixture, x, expected, 7, 0.3), 0, 0.02);
     check_near("two layers: nothing changes any more", fixture->sph.powers.through_walls / 1.6, 0, 1e-4);
+    check_near("two layers: heat from the hot wall", fixture->sph.body_heat[2] / (1.6 * strip.ny * strip.spacing), 1, 0.02);
+    check_near("two layers: heat into the cold wall", -fixture->sph.body_heat[3] / (1.6 * strip.ny * strip.spacing), 1, 0.02);
     fixture_close(fixture);
 }
 
