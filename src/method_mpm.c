@@ -14,7 +14,7 @@ static void open_solver(struct run *run)
         mpm_share_always(mpm);
     run->store = mpm->store;
     run->source = (struct result_source){mpm->store, mpm->material_of_body, mpm->material_number_of_body, &mpm->cells->count,
-                                         run->scene->building.shows_ghosts};
+                                         run->scene->building.shows_ghosts, NULL};
 }
 
 static void close_solver(struct run *run)

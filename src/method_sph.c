@@ -11,7 +11,8 @@ static void open_solver(struct run *run)
         sph_share_always(sph);
     run->store = sph->store;
     run->source = (struct result_source){.store = sph->store, .body_material = sph->material_of_body,
-                                         .body_material_number = sph->material_number_of_body};
+                                         .body_material_number = sph->material_number_of_body,
+                                         .body_heat = sph->body_heat};
 }
 
 static void close_solver(struct run *run)

@@ -13,6 +13,7 @@
 
 #include "swing.h"
 #include "tecplot_find.h"
+#include "tecplot_rough.h"
 
 enum exit_status { DONE = 0, NO_ROWS = 1, TROUBLE = 2 };
 
@@ -388,6 +389,29 @@ static bool print_pair_statistic(const struct selection *selection,
     return done;
 }
 
+/* The last three columns are the coordinates. */
+static bool print_roughness(const struct selection *selection, double reach, const size_t *columns,
+                            size_t column_count)
+{
+    double *places[3];
+    bool done = true;
+    for (int i = 0; i < 3; ++i) {
+        places[i] = values_of(selection, columns[column_count + (size_t)i]);
+        done = done && places[i] != NULL;
+    }
+    for (size_t i = 0; i < column_count && done; ++i) {
+        double *values = values_of(selection, columns[i]);
+        done = values != NULL;
+        if (done)
+            print_number(tecplot_roughness((const double *const[]){places[0], places[1], places[2]}, values,
+                                           selection->row_count, reach));
+        free(values);
+    }
+    for (int i = 0; i < 3; ++i)
+        free(places[i]);
+    return done;
+}
+
 static bool print_row(const struct selection *selection, size_t number, const size_t *columns,
                       size_t column_count)
 {
@@ -407,7 +431,8 @@ static bool print_row(const struct selection *selection, size_t number, const si
 struct command {
     const struct statistic *statistic;   /* or NULL */
     const struct pair_statistic *of_two; /* or NULL */
-    size_t row;                          /* of the command row, which is neither */
+    double reach;                        /* of the command rough, 0 for others */
+    size_t row;                          /* of the command row, which is none of these */
     const char **names;                  /* variables, in the request */
     size_t name_count;
     size_t *columns; /* likewise */
@@ -424,12 +449,26 @@ static bool read_row_command(const struct request *request, struct command *comm
     return true;
 }
 
+static bool read_rough_command(const struct request *request, struct command *command)
+{
+    const char *reach = request->word_count > 1 ? request->words[1] : "";
+    if (request->word_count < 3)
+        return complain("a distance and a variable are needed after", "rough");
+    if (tecplot_number(reach, strlen(reach), &command->reach) != NULL || !(command->reach > 0.0))
+        return complain("rough REACH VARIABLE...: REACH must be a number above 0, not", reach);
+    command->names += 1;
+    command->name_count -= 1;
+    return true;
+}
+
 static bool read_command(const struct request *request, struct command *command)
 {
     const char *what = request->words[0];
     *command = (struct command){.names = request->words + 1, .name_count = request->word_count - 1};
     if (strcmp(what, "row") == 0)
         return read_row_command(request, command);
+    if (strcmp(what, "rough") == 0)
+        return read_rough_command(request, command);
     command->of_two = find_pair_statistic(what);
     if (command->of_two != NULL)
         return command->name_count == 2 || complain("two variables are needed after", what);
@@ -442,11 +481,15 @@ static bool read_command(const struct request *request, struct command *command)
 
 static bool find_columns(const struct tecplot_file *file, struct command *command)
 {
-    command->columns = calloc(command->name_count + 1, sizeof *command->columns);
+    static const char *const coordinates[] = {"X", "Y", "Z"};
+    command->columns = calloc(command->name_count + 3, sizeof *command->columns);
     if (command->columns == NULL)
         return complain_memory();
     for (size_t i = 0; i < command->name_count; ++i)
         if (!tecplot_find_column("tecstat", file, command->names[i], &command->columns[i]))
+            return false;
+    for (size_t i = 0; i < 3 && command->reach > 0.0; ++i)
+        if (!tecplot_find_column("tecstat", file, coordinates[i], &command->columns[command->name_count + i]))
             return false;
     if (command->name_count == 0)
         command->name_count = 1; /* count of the first column, the same in all */
@@ -457,6 +500,8 @@ static bool print_command(const struct selection *selection, const struct comman
 {
     if (command->of_two != NULL)
         return print_pair_statistic(selection, command->of_two, command->columns);
+    if (command->reach > 0.0)
+        return print_roughness(selection, command->reach, command->columns, command->name_count);
     if (command->statistic == NULL)
         return print_row(selection, command->row, command->columns, command->name_count);
     for (size_t i = 0; i < command->name_count; ++i)
@@ -499,6 +544,8 @@ static void usage(FILE *stream)
           "               the time of the rows: largest component of Fourier under a Hann window\n"
           "  decay        takes VAR TIME: rate b of exp(-b t), from the size of that swing in the\n"
           "               first and in the second half of the time\n"
+          "  rough REACH  root mean square of the variable less the plane over X, Y, Z that fits the\n"
+          "               rows within REACH of each one best\n"
           "\n"
           "Upper and lower case of variable names need not agree. A NaN among the values gives\n"
           "nan; --where drops rows in which VAR is NaN. A file \"-\" is standard input.\n"

@@ -198,6 +198,15 @@ expect stat_strain 0 "0.25" "" tecstat full.dat strain disx X
 # ends with two rows each: displacements 0.1 and 0.3 at 0, -0.2 and 0 at 2: (-0.1 - 0.2)/2
 printf 'x u\n.1 .1\n.3 .3\n1.8 -.2\n2 0\n1 0\n' >ends.dat
 expect stat_strain_mean_at_ends 0 "-0.15" "" tecstat ends.dat strain u x
+# the same everywhere; then a plane with one row of a square of nine, the middle, off by 9: a fit takes 1 of its 9
+awk 'BEGIN { print "VARIABLES = \"X\" \"Y\" \"Z\" \"p\" \"q\""; print "ZONE T=\"z\" F=POINT"
+    for (j = 0; j < 3; j++) for (i = 0; i < 3; i++) print i, j, 5, 7, 1 + 2 * i - 3 * j + (i == 1 && j == 1 ? 9 : 0) }' >plane.dat
+expect stat_rough_level 0 "0" "" tecstat plane.dat rough 9 p
+expect stat_rough_middle 0 "2.82842712475" "" tecstat plane.dat rough 9 q
+expect stat_rough_several 0 "0 / 2.82842712475" "" tecstat plane.dat rough 9 p q
+expect stat_rough_too_few 0 "nan" "" tecstat plane.dat rough 0.5 p
+expect stat_rough_reach 2 "" "REACH must be a number above 0, not" tecstat plane.dat rough 0 p
+expect stat_rough_no_variable 2 "" "a distance and a variable are needed" tecstat plane.dat rough 1
 expect stat_strain_no_length 2 "" "same initial coordinate" tecstat full.dat strain Z Z
 # values 1, 2 and 6 at 0, 1 and 2: products -1 0 1 with -2 -1 3
 printf 'x v\n0 1\n1 2\n2 6\n' >line.dat

@@ -23,6 +23,7 @@ static const struct limit limits[LIMIT_ROWS] = {
     [LIMIT_NORMAL] = {"0 (of both components), 1 (of the first) or 2 (of the second)", 0, 2, false, false},
     [LIMIT_DIGITS] = {"from 2 to 17", 2, 17, false, false},
     [LIMIT_FRACTION] = {"from 0 to 1", 0, 1, false, false},
+    [LIMIT_BELOW_ONE] = {"between -1 and 1", -1, 1, true, true},
     [LIMIT_FLAG] = {"0 or 1", 0, 1, false, false},
     [LIMIT_DIMENSION] = {"2 or 3", 2, 3, false, false},
 };

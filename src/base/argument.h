@@ -24,6 +24,7 @@ enum argument_limit {
     LIMIT_NORMAL,        /* 0, 1, 2 */
     LIMIT_DIGITS,        /* 2 ... 17 */
     LIMIT_FRACTION,      /* 0 ... 1 */
+    LIMIT_BELOW_ONE,     /* -1 < a < 1 */
     LIMIT_FLAG,          /* 0, 1 */
     LIMIT_DIMENSION,     /* 2, 3 */
     LIMIT_ROWS

@@ -121,6 +121,7 @@ static void check_results(struct reader *reader)
         const char *name, *needed;
         bool is_there;
     } rows[] = {{"enth", "'heat enth'", has_heat},     {"heat", "'heat enth'", has_heat},    {"thru", "'heat enth'", has_heat},
+                {"wflu", "'heat enth'", has_heat},
                 {"vish", "'vhea on'", sph->heats_by_viscosity}, {"powh", "'powe'", sph->volume_heat != 0},
                 {"kapp", "'csf bala'", has_surface},   {"lasr", "'beam'", sph->beam.is_on},  {"lasi", "'beam'", sph->beam.is_on},
                 {"absb", "'beam'", sph->beam.is_on},   {"refl", "'beam'", sph->beam.is_on},  {"tran", "'beam'", sph->beam.is_on},

@@ -45,10 +45,13 @@ static void read_sound(struct reader *reader, const struct deck_word *word, cons
 
 static void read_diffusion(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
-    static const char *const gradient[] = {"grad", NULL};
+    static const char *const names[] = {"grad", "dens", NULL};
+    struct scene_sph *sph = &reader->scene->sph;
     (void)word;
     (void)values;
-    reader->scene->sph.diffuses_gradient = reader_optional(reader, gradient) == 0;
+    sph->diffuses_gradient = sph->diffuses_reference = false;
+    for (int name; (name = reader_optional(reader, names)) >= 0;)
+        *(name == 0 ? &sph->diffuses_gradient : &sph->diffuses_reference) = true;
 }
 
 static void switch_on_reduction(struct reader *reader, const struct deck_word *word, const struct value *values)
@@ -136,22 +139,35 @@ static void read_temperature(struct reader *reader, const struct deck_word *word
 
 static void read_swelling(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
-    static const char *const kinds[] = {"cycl", "rate", NULL};
-    static const struct argument cycle[] = {NUMBER("amplitude", NULL, LIMIT_FRACTION), NUMBER("frequency", "1/time", LIMIT_POSITIVE), {0}};
+    static const char *const forms[] = {[SWELLING_CYCLE] = "cycl", [SWELLING_GROWING] = "grow", [SWELLING_STEADY] = "rate", NULL};
+    static const char *const until[] = {"unti", NULL};
+    static const struct argument cycle[] = {NUMBER("amplitude", NULL, LIMIT_BELOW_ONE), NUMBER("frequency", "1/time", LIMIT_POSITIVE), {0}};
+    static const struct argument growing[] = {NUMBER("rate", "1/time", LIMIT_NONE), NUMBER("frequency", "1/time", LIMIT_POSITIVE), {0}};
     static const struct argument rate[] = {NUMBER("rate", "1/time", LIMIT_NONE), {0}};
+    static const struct argument end[] = {NUMBER("end", "time", LIMIT_NOT_NEGATIVE), {0}};
+    static const struct {
+        const struct argument *arguments;
+        const char *name;
+    } rows[] = {[SWELLING_CYCLE] = {cycle, "swel cycl"}, [SWELLING_GROWING] = {growing, "swel grow"}, [SWELLING_STEADY] = {rate, "swel rate"}};
     struct scene_sph *sph = &reader->scene->sph;
-    struct value numbers[3] = {{0}};
-    const int kind = reader_optional(reader, kinds);
+    struct value numbers[3] = {{0}}, last[2];
+    const int form = reader_optional(reader, forms);
     (void)word;
-    if (kind < 0) {
-        reader_expect(reader, "swel", "'cycl amplitude frequency' or 'rate r'");
+    if (form < 0) {
+        reader_expect(reader, "swel", "'cycl amplitude frequency', 'grow rate frequency' or 'rate r'");
         return;
     }
-    if (!reader_values(reader, kind == 0 ? cycle : rate, kind == 0 ? "swel cycl" : "swel rate", numbers))
+    if (!reader_values(reader, rows[form].arguments, rows[form].name, numbers))
         return;
+    struct scene_swelling swelling = {values[0].integer - 1, (enum swelling_form)form, numbers[0].real,
+                                      form == SWELLING_STEADY ? 0 : numbers[1].real, INFINITY, values[0].word.place};
+    if (form == SWELLING_STEADY && reader_optional(reader, until) == 0) {
+        if (!reader_values(reader, end, "swel rate unti", last))
+            return;
+        swelling.end = last[0].real;
+    }
     sph->swellings = memory_grow(sph->swellings, &sph->swellings_capacity, sph->n_swellings + 1, sizeof *sph->swellings, "swel");
-    sph->swellings[sph->n_swellings++] = (struct scene_swelling){values[0].integer - 1, kind == 0, numbers[0].real,
-                                                                 kind == 0 ? numbers[1].real : 0, values[0].word.place};
+    sph->swellings[sph->n_swellings++] = swelling;
 }
 
 static void read_stretch(struct reader *reader, const struct deck_word *word, const struct value *values)
@@ -240,7 +256,8 @@ const struct keyword sph_keywords[] = {
             "`adapt` behind it changes by and by to what the flow needs: densities within a hundredth of their reference"},
     {.name = "delt", .long_name = "delta", .arguments = LIST(NUMBER("delta", NULL, LIMIT_NOT_NEGATIVE)), .field = FIELD(density_diffusion),
      .apply = read_diffusion,
-     .doc = "diffusion of density (0.1); with `grad` behind it gradients are kept, which gravity needs"},
+     .doc = "diffusion of density (0.1); with `grad` behind it gradients are kept, which gravity needs; with `dens` it acts on the density "
+            "itself, not on what of it gives pressure, to show what comes of it"},
     {.name = "pgra", .long_name = "pgradient", .arguments = WORD("sym|shep"), .choice = CHOICE(pressures, pressure),
      .doc = "pressure force: of sums (sym, default), or each divided by the other's Shepard sum (shep, of the dissertation)"},
     {.name = "visc", .long_name = "viscosity", .arguments = WORD("mg|morr"), .choice = CHOICE(viscosities, viscosity),
@@ -305,7 +322,8 @@ const struct keyword sph_keywords[] = {
     {.name = "temp", .long_name = "temperature", .arguments = LIST(BODY, NUMBER("T", "temperature", LIMIT_NOT_NEGATIVE)), .apply = read_temperature,
      .doc = "temperature of a body at the start (293)"},
     {.name = "swel", .long_name = "swelling", .arguments = LIST(BODY), .apply = read_swelling,
-     .doc = "density of a body times 1 + a sin(2 pi f t): `swel body cycl a f`, or times 1 + r t: `swel body rate r`"},
+     .doc = "density of a body without pressure changes, times 1 + a sin(2 pi f t): `swel body cycl a f`; 1 + r t sin(2 pi f t): `swel body "
+            "grow r f`; 1 + r t: `swel body rate r`, with `until t` behind it up to this time"},
     {.name = "stre", .long_name = "stretch",
      .arguments = LIST(BODY, NUMBER("sx", NULL, LIMIT_POSITIVE), NUMBER("sy", NULL, LIMIT_POSITIVE), NUMBER("sz", NULL, LIMIT_POSITIVE)),
      .apply = read_stretch, .doc = "a body is stretched about its middle at the start"},

@@ -4,6 +4,7 @@
 #include "deck/echo.h"
 #include "deck/keyword.h"
 
+#include <math.h>
 #include <string.h>
 
 static void print_line(FILE *stream, const char *word, const double *values, int count)
@@ -68,8 +69,10 @@ static void echo_bodies(const struct scene_sph *sph, FILE *stream)
     }
     for (size_t i = 0; i < sph->n_swellings; i++) {
         const struct scene_swelling *swelling = &sph->swellings[i];
-        fprintf(stream, "  swel %ld %s", swelling->body + 1, swelling->is_cyclic ? "cycl" : "rate");
-        print_line(stream, "", (double[]){swelling->amplitude, swelling->frequency}, swelling->is_cyclic ? 2 : 1);
+        static const char *const forms[] = {[SWELLING_CYCLE] = "cycl", [SWELLING_GROWING] = "grow", [SWELLING_STEADY] = "rate"};
+        fprintf(stream, "  swel %ld %s", swelling->body + 1, forms[swelling->form]);
+        echo_numbers(stream, (double[]){swelling->amplitude, swelling->frequency}, swelling->form == SWELLING_STEADY ? 1 : 2);
+        print_line(stream, isfinite(swelling->end) ? " until" : "", &swelling->end, isfinite(swelling->end));
     }
     for (size_t i = 0; i < sph->n_stretches; i++) {
         fprintf(stream, "  stre %ld", sph->stretches[i].body + 1);
@@ -110,7 +113,9 @@ static void echo_word(const struct scene *scene, const struct keyword *row, FILE
         fprintf(stream, " %ld", *(const long *)(const void *)field);
     else
         echo_numbers(stream, (const double *)(const void *)field, 1);
-    fputs(strcmp(row->name, "delt") == 0 && scene->sph.diffuses_gradient ? " grad\n" : "\n", stream);
+    if (strcmp(row->name, "delt") == 0)
+        fprintf(stream, "%s%s", scene->sph.diffuses_gradient ? " grad" : "", scene->sph.diffuses_reference ? " dens" : "");
+    fputc('\n', stream);
 }
 
 void echo_sph(const struct scene *scene, FILE *stream)

@@ -60,11 +60,15 @@ struct scene_beam {
     struct deck_place place;
 };
 
-/* An imposed change of the reference density of a body: rho0 (1 + amplitude sin(2 pi frequency t)) or 1 + rate t. */
+/* An imposed change of the reference density of a body: it is times 1 + a sin(2 pi f t), 1 + a t sin(2 pi f t), or
+ * 1 + a t up to an end. */
+enum swelling_form { SWELLING_CYCLE, SWELLING_GROWING, SWELLING_STEADY };
+
 struct scene_swelling {
     long body;
-    bool is_cyclic;
-    double amplitude, frequency;
+    enum swelling_form form;
+    double amplitude, frequency; /* a, f */
+    double end;                  /* of a steady one; infinite where it has none */
     struct deck_place place;
 };
 
@@ -83,6 +87,7 @@ struct scene_sph {
     bool adapts_sound;
     double density_diffusion; /* delta */
     bool diffuses_gradient;   /* s = 1: with renormalised gradients */
+    bool diffuses_reference;  /* the density itself is diffused, not what of it gives pressure */
     enum pressure_form pressure;
     enum viscous_form viscosity;
     enum integrator integrator;

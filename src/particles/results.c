@@ -127,6 +127,11 @@ static double displacement_z(const struct result_source *s, size_t p)
     return REAL(s, COLUMN_POSITION, 2) - REAL(s, COLUMN_INITIAL_POSITION, 2);
 }
 
+static double heat_of_wall(const struct result_source *s, size_t p)
+{
+    return s->body_heat[s->store->integer[COLUMN_BODY][p]];
+}
+
 /* Of the stress whose divergence is in balance: with residual stress taken off. */
 static double von_mises_total(const struct result_source *s, size_t p)
 {
@@ -225,6 +230,8 @@ static const struct result rows[] = {
      .columns = {COLUMN_CURVATURE}, .value = curvature},
     {.name = "lasr", .unit = "power", .doc = "power taken from the beam; with beam", SPH, .columns = {COLUMN_LASER_POWER},
      .value = laser_power},
+    {.name = "wflu", .unit = "power", .doc = "heat that comes in from the wall of given temperature that the particle belongs to; 0 for "
+                                             "particles of others; with heat", SPH, .value = heat_of_wall},
 #undef SPH
     {.name = "momx", .unit = "mass*length/time", .doc = "momentum along x", .total = TOTAL_MOMENTUM_X},
     {.name = "momy", .unit = "mass*length/time", .doc = "momentum along y", .total = TOTAL_MOMENTUM_Y},

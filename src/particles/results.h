@@ -15,6 +15,7 @@ struct result_source {
     const int *body_material_number;             /* its number in the deck */
     const int32_t *n_open;                       /* particles at places from here on are closed; NULL: none is */
     bool shows_closed;
+    const double *body_heat;                     /* power of heat from each body, of walls of smoothed particles; or NULL */
 };
 
 /* Whether the particle at place p is closed. */

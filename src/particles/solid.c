@@ -9,6 +9,7 @@
 /* Nearer than this to a surface a point is on it. Coordinates of a million spacings at most have
  * round-off of less than half of it. */
 static const double MARGIN = 1e-9;
+static const double PI = 3.14159265358979323846;
 
 /* --- shapes --- */
 
@@ -57,6 +58,25 @@ static const char *place_cylinder(struct solid_step *step, const double origin[3
     return NULL;
 }
 
+static const char *place_arch(struct solid_step *step, const double origin[3], double spacing)
+{
+    const double *n = step->number;
+    if (!(n[0] < n[1]) || !(n[4] < n[5]))
+        return "has a lower end that is not below its upper end";
+    if (n[3] == 0)
+        return "has no height";
+    step->is_arch = true;
+    step->foot = in_spacings(n[2], 1, origin, spacing);
+    step->rise = n[3] / spacing;
+    step->low[0] = in_spacings(n[0], 0, origin, spacing);
+    step->high[0] = in_spacings(n[1], 0, origin, spacing);
+    step->low[1] = step->foot + fmin(step->rise, 0);
+    step->high[1] = step->foot + fmax(step->rise, 0);
+    step->low[2] = in_spacings(n[4], 2, origin, spacing);
+    step->high[2] = in_spacings(n[5], 2, origin, spacing);
+    return NULL;
+}
+
 #define LENGTH(name) {name, "length", ARGUMENT_REAL, LIMIT_NONE}
 #define RADIUS {"radius", "length", ARGUMENT_REAL, LIMIT_POSITIVE}
 
@@ -71,6 +91,10 @@ static const struct solid_shape shapes[] = {
      place_cylinder},
     {"sphe", "sphere", "sphere about its centre",
      (const struct argument[]){LENGTH("xc"), LENGTH("yc"), LENGTH("zc"), RADIUS, {0}}, place_sphere},
+    {"arch", "arch", "between the line y = foot and half a sine wave over it from x0 to x1, its top height above it, or below "
+                     "it with a height less than 0; from z0 to z1",
+     (const struct argument[]){LENGTH("x0"), LENGTH("x1"), LENGTH("foot"), LENGTH("height"), LENGTH("z0"), LENGTH("z1"), {0}},
+     place_arch},
     {"stl", "stl", "closed surface of triangles from a file, text or binary; its path is seen from this deck's folder, in "
                    "quotes if it has blanks; scale and move may follow on the line",
      (const struct argument[]){{"file", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}}, NULL},
@@ -191,12 +215,24 @@ const char *solid_fault(const struct solid *solid)
     return NULL;
 }
 
-/* The points of line (j, k) that are inside a round shape or a box. */
+/* The points of line (j, k) that are inside an arch: there the wave is farther from its foot than the line is. */
+static struct crossings_run arch_run(const struct solid_step *step, long j)
+{
+    const double part = ((double)j + 0.5 - step->foot) / step->rise, width = step->high[0] - step->low[0];
+    if (!(part < 1))
+        return (struct crossings_run){0, 0};
+    const double way = asin(fmax(part, 0)) / PI * width + MARGIN;
+    return (struct crossings_run){(int32_t)crossings_above(step->low[0] + way), (int32_t)crossings_from(step->high[0] - way)};
+}
+
+/* The points of line (j, k) that are inside an arch, a round shape or a box. */
 static struct crossings_run shape_run(const struct solid_step *step, long j, long k)
 {
     const double place[3] = {0, (double)j + 0.5, (double)k + 0.5}, radius = step->radius - MARGIN;
     struct crossings_run run = {(int32_t)step->from[0], (int32_t)step->to[0]};
     const struct crossings_run none = {0, 0};
+    if (step->is_arch)
+        return arch_run(step, j);
     if (!step->is_round[1] && !step->is_round[2])
         return run;
     double rest = radius * radius;

@@ -38,6 +38,8 @@ struct solid_step {
     double low[3], high[3];       /* extents, in spacings from the origin */
     double centre[3], radius;     /* round in those axes, in spacings */
     bool is_round[3];
+    bool is_arch;
+    double foot, rise;            /* of an arch, in spacings */
     long from[3], to[3];          /* points that may be inside: from ... to - 1 */
 };
 

@@ -34,6 +34,7 @@ void sph_exchange(struct sph *sph, struct checkpoint *checkpoint)
 {
     for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
         checkpoint_item(checkpoint, fields[i].name, (char *)sph + fields[i].offset, fields[i].size, 1);
+    checkpoint_item(checkpoint, "body_heat", sph->body_heat, sizeof *sph->body_heat, sph->scene->n_bodies);
     store_exchange(sph->store, checkpoint, sph->scene->n_bodies);
     if (checkpoint_is_reading(checkpoint) && checkpoint_is_good(checkpoint) && !are_sound(sph))
         checkpoint_reject(checkpoint, "states");

@@ -48,6 +48,7 @@ void flow_prepare(struct sph *sph)
 {
     const struct sph_columns *c = &sph->columns;
     const double ahead = sph->words->integrator == INTEGRATOR_PREDICTED ? 0.5 * sph->taken_step : 0;
+    const bool keeps_reference = sph->words->diffuses_reference;
     const size_t count = sph->store->count;
 #pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t p = 0; p < count; p++) {
@@ -55,7 +56,7 @@ void flow_prepare(struct sph *sph)
         for (int a = 0; a < 3; a++)
             sph->seen[a][p] = is_fluid ? c->v[a][p] + ahead * c->a[a][p] : c->v[a][p];
         sph->fluid_volume[p] = is_fluid ? c->volume[p] : 0;
-        sph->excess[p] = is_fluid ? c->density[p] - c->reference[p] - c->excess_offset[p] : 0;
+        sph->excess[p] = is_fluid ? c->density[p] - (keeps_reference ? 0 : c->reference[p] + c->excess_offset[p]) : 0;
     }
 }
 

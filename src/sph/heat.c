@@ -24,12 +24,13 @@ static const double ASIDE = 0.8;
 /* Relaxation of the excess of density of what has melted takes so many times h/c0 (spec 3.3). */
 static const double RELAXATION = 20;
 
-/* A particle beside walls of given temperature: its conductance to them over its own volume and conductivity, that times
- * their temperatures, and the heat that comes from there. For a solid beside walls that stay both hold. */
+/* A particle beside a wall of given temperature: its conductance to it over its own volume and conductivity, and the heat
+ * that comes from there. For a solid beside a wall that stays it holds. */
 struct contact {
     int32_t particle;
+    const struct scene_wall *wall;
     bool holds;
-    double conductance, warmth, heat;
+    double conductance, heat;
 };
 
 struct sph_heat {
@@ -82,7 +83,10 @@ static double swelling_at(const struct scene_swelling *swelling, double time)
 {
     if (!swelling)
         return 1;
-    return 1 + swelling->amplitude * (swelling->is_cyclic ? sin(2 * PI * swelling->frequency * time) : time);
+    if (swelling->form == SWELLING_STEADY)
+        return 1 + swelling->amplitude * fmin(time, swelling->end);
+    const double wave = sin(2 * PI * swelling->frequency * time);
+    return 1 + swelling->amplitude * (swelling->form == SWELLING_GROWING ? time * wave : wave);
 }
 
 static double temperature_of(const struct sph *sph, size_t p)
@@ -264,18 +268,33 @@ static const struct scene_wall *warm_wall(const struct sph *sph, size_t p)
     return wall && wall->heat == WALL_TEMPERATURE ? wall : NULL;
 }
 
-static bool has_warm_wall(const struct sph *sph, size_t p)
+/* Whether a particle has this wall, or with NULL any such wall, in its list. */
+static bool has_warm_wall(const struct sph *sph, size_t p, const struct scene_wall *wall)
 {
     const struct neighbour_lists *near = &sph->neighbours->near;
     if (sph->columns.state[p] == SPH_WALL || sph->columns.state[p] == SPH_REMOVED)
         return false;
-    for (int64_t n = near->first[p]; n < near->first[p + 1]; n++)
-        if (warm_wall(sph, (size_t)near->list[n]))
+    for (int64_t n = near->first[p]; n < near->first[p + 1]; n++) {
+        const struct scene_wall *found = warm_wall(sph, (size_t)near->list[n]);
+        if (found && (!wall || found == wall))
             return true;
+    }
     return false;
 }
 
-/* Lists the particles that have such walls in their lists; it holds as long as the lists. */
+/* Lists the contact of a particle with each such wall. */
+static void list_contacts(const struct sph *sph, struct sph_heat *heat, size_t p)
+{
+    for (size_t i = 0; i < sph->words->n_walls; i++) {
+        const struct scene_wall *wall = &sph->words->walls[i];
+        if (wall->heat != WALL_TEMPERATURE || !has_warm_wall(sph, p, wall))
+            continue;
+        heat->contacts = memory_grow(heat->contacts, &heat->contacts_capacity, heat->n_contacts + 1, sizeof *heat->contacts, "walls");
+        heat->contacts[heat->n_contacts++] = (struct contact){.particle = (int32_t)p, .wall = wall};
+    }
+}
+
+/* They hold as long as the lists. */
 static void find_contacts(struct sph *sph, struct sph_heat *heat)
 {
     bool has_warm = false;
@@ -285,12 +304,9 @@ static void find_contacts(struct sph *sph, struct sph_heat *heat)
         return;
     heat->builds = sph->neighbours->builds;
     heat->n_contacts = 0;
-    for (size_t p = 0; p < sph->store->count; p++) {
-        if (!has_warm_wall(sph, p))
-            continue;
-        heat->contacts = memory_grow(heat->contacts, &heat->contacts_capacity, heat->n_contacts + 1, sizeof *heat->contacts, "walls");
-        heat->contacts[heat->n_contacts++] = (struct contact){.particle = (int32_t)p};
-    }
+    for (size_t p = 0; p < sph->store->count; p++)
+        if (has_warm_wall(sph, p, NULL))
+            list_contacts(sph, heat, p);
 }
 
 /* A pair within reach of the kernel, in loops that are not hot. */
@@ -340,43 +356,38 @@ static double wall_distance(const struct sph *sph, size_t a, const double normal
     return fmax(isfinite(least) ? least - 0.5 * sph->spacing : 0, 0.5 * sph->spacing);
 }
 
-/* Conductance of the contact of particle a with the walls, from the places of now. */
+/* Conductance of the contact of particle a with a wall, from the places of now. All walls of given temperature beside it
+ * tell where their surface is. */
 static void find_conductance(const struct sph *sph, size_t a, struct contact *contact)
 {
     const struct neighbour_lists *near = &sph->neighbours->near;
     double normal[3];
     const bool has_direction = wall_direction(sph, a, normal);
     const double distance = has_direction ? wall_distance(sph, a, normal) : 0;
-    contact->conductance = contact->warmth = 0;
-    contact->holds = sph->columns.state[a] == SPH_SOLID;
+    contact->conductance = 0;
+    contact->holds = sph->columns.state[a] == SPH_SOLID && !sph_wall_moves(contact->wall);
     for (int64_t n = near->first[a]; n < near->first[a + 1]; n++) {
         const size_t b = (size_t)near->list[n];
-        const struct scene_wall *wall = warm_wall(sph, b);
         double ratio = 1;
         struct pair pair;
-        if (!wall)
-            continue;
-        contact->holds = contact->holds && !sph_wall_moves(wall);
-        if (!find_pair(sph, a, b, &pair))
+        if (warm_wall(sph, b) != contact->wall || !find_pair(sph, a, b, &pair))
             continue;
         if (has_direction) {
             const double depth = pair_dot(pair.d, normal, 3) - distance;
             ratio = fmin(fmax(depth, 0.5 * sph->spacing) / distance, LARGEST_RATIO);
         }
-        const double conductance = -2 * sph->columns.volume[b] * (1 + ratio) * pair.slope;
-        contact->conductance += conductance;
-        contact->warmth += conductance * wall->temperature;
+        contact->conductance += -2 * sph->columns.volume[b] * (1 + ratio) * pair.slope;
     }
 }
 
-/* Heat that flows from walls of given temperature into particle a. */
-static double heat_from_walls(const struct sph *sph, size_t a, struct contact *contact)
+/* Heat that flows from a wall of given temperature into particle a. */
+static double heat_from_wall(const struct sph *sph, size_t a, struct contact *contact)
 {
     const struct sph_columns *c = &sph->columns;
     if (!contact->holds || c->state[a] != SPH_SOLID)
         find_conductance(sph, a, contact);
     const double factor = sph->words->corrects_lattice && c->state[a] == SPH_SOLID ? sph->heat->lattice_factor : 1;
-    return factor * c->volume[a] * c->conductivity[a] * (contact->warmth - contact->conductance * c->temperature[a]);
+    return factor * c->volume[a] * c->conductivity[a] * contact->conductance * (contact->wall->temperature - c->temperature[a]);
 }
 
 static double add_heat_from_walls(struct sph *sph, struct sph_heat *heat)
@@ -385,11 +396,16 @@ static double add_heat_from_walls(struct sph *sph, struct sph_heat *heat)
 #pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t i = 0; i < heat->n_contacts; i++) {
         const size_t p = (size_t)heat->contacts[i].particle;
-        heat->contacts[i].heat = sph->columns.state[p] == SPH_REMOVED ? 0 : heat_from_walls(sph, p, &heat->contacts[i]);
-        sph->columns.heat_rate[p] += heat->contacts[i].heat;
+        heat->contacts[i].heat = sph->columns.state[p] == SPH_REMOVED ? 0 : heat_from_wall(sph, p, &heat->contacts[i]);
     }
-    for (size_t i = 0; i < heat->n_contacts; i++)
-        sum += heat->contacts[i].heat;
+    for (size_t i = 0; i < sph->words->n_walls; i++)
+        sph->body_heat[sph->words->walls[i].body] = 0;
+    for (size_t i = 0; i < heat->n_contacts; i++) {
+        const struct contact *contact = &heat->contacts[i];
+        sph->columns.heat_rate[contact->particle] += contact->heat;
+        sph->body_heat[contact->wall->body] += contact->heat;
+        sum += contact->heat;
+    }
     return sum;
 }
 

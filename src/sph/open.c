@@ -77,6 +77,7 @@ static void create_bodies(struct sph *sph, const struct scene *scene)
 {
     const struct scene_sph *words = &scene->sph;
     sph->bodies = memory_array(scene->n_bodies, sizeof *sph->bodies, "bodies");
+    sph->body_heat = memory_array(scene->n_bodies, sizeof *sph->body_heat, "bodies");
     sph->material_of_body = memory_array(scene->n_bodies, sizeof *sph->material_of_body, "bodies");
     sph->material_number_of_body = memory_array(scene->n_bodies, sizeof *sph->material_number_of_body, "bodies");
     for (size_t b = 0; b < scene->n_bodies; b++) {
@@ -355,6 +356,7 @@ void sph_close(struct sph *sph)
     laser_free(sph);
     memory_free(sph->portions);
     memory_free(sph->bodies);
+    memory_free(sph->body_heat);
     memory_free(sph->material_of_body);
     memory_free(sph->material_number_of_body);
     neighbours_close(sph->neighbours);

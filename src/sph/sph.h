@@ -78,6 +78,7 @@ struct sph {
     struct neighbours *neighbours;
     struct timers *timers;
     struct sph_body *bodies;
+    double *body_heat; /* power of the heat that comes in from each body that is a wall of given temperature */
     const struct material **material_of_body;
     int *material_number_of_body;
     struct sph_columns columns;
@@ -124,7 +125,7 @@ struct sph {
     double *seen[3];       /* velocities that pairs see: of walls and solids first their own, for the forces the mirrored ones */
     double *fluid_volume;  /* volume of fluid; 0 for walls and solids */
     unsigned char *beside; /* what moves within reach of walls and solids; NULL without them */
-    double *excess;        /* density above the reference that gives pressure; 0 for walls and solids */
+    double *excess;        /* what is diffused: density above the reference that gives pressure; 0 for walls and solids */
     double *rate;          /* of the density */
     struct sph_portion *portions; /* sums of portions of the particles (budget.c) */
 

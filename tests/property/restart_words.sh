@@ -73,7 +73,7 @@ cp "$here/property/restart.mpm" coverage/falling.mpm
 compare "lost drop, kinetic damping" coverage/falling.mpm ""
 cp "$here/../decks/sph/laplace_2d.mpm" coverage/drop.mpm
 compare "smoothed particles: a drop" coverage/drop.mpm ""
-cp "$here/../decks/sph/heat_plates.mpm" coverage/plates.mpm
+sed "s/^outr cels/outr cels curv wflu 2000/" "$here/../decks/sph/heat_plates.mpm" >coverage/plates.mpm
 compare "smoothed particles: heat" coverage/plates.mpm ""
 sed '/^dtfx/d; s/^sph/sph hrat 1.3 hsra 1.9 cfl 0.3 delt 0.1 grad jitt 0.02 7 vsmo on shif 0.2 csfe 0.2 latc on vhea on powe 1e9 redu 6800 \
     swel 1 cycl 0.01 1e4 stre 1 1 1 0.98/' coverage/sph_beam.mpm >coverage/beam.mpm

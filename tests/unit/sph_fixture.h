@@ -16,6 +16,7 @@ struct fixture {
     struct sph sph;
     struct scene_sph words;
     struct sph_body bodies[FIXTURE_BODIES];
+    double body_heat[FIXTURE_BODIES];
     struct properties materials[FIXTURE_BODIES]; /* by body */
     struct scene_wall walls[FIXTURE_BODIES];
     struct scene_beam_piece piece;
@@ -95,6 +96,7 @@ static inline struct fixture *fixture_open(int dimension, double spacing, double
     fixture->words.beam.pieces = &fixture->piece;
     sph->words = &fixture->words;
     sph->bodies = fixture->bodies;
+    sph->body_heat = fixture->body_heat;
     for (int b = 0; b < FIXTURE_BODIES; b++)
         fixture->bodies[b].properties = &fixture->materials[b];
     sph->dimension = dimension;

@@ -165,7 +165,7 @@ static void block_deck(struct deck_builder *deck, const char *words)
 static bool is_open(const struct test_run *run, int id)
 {
     const struct result_source source = {run->mpm->store, run->mpm->material_of_body, run->mpm->material_number_of_body,
-                                         &run->mpm->cells->count, false};
+                                         &run->mpm->cells->count, false, NULL};
     return !result_is_closed(&source, (size_t)run->mpm->store->index_of_id[id]);
 }
 

@@ -87,9 +87,9 @@ static void test_defaults(void)
 static const char full[] =
     HEAD "mate 1 flui 2 .1\n"
     "prop 1 dens 2 100 3 200 2 extr prop 1 capa 1 0 7 prop 1 cond 1 0 4 prop 1 surf 2 0 1 9 .5 prop 1 melt 150 160 40 prop 1 boil 300 5 .1\n" BODIES
-    "sph dime 2 hrat 1.5 hsra 2 c0 30 adapt delt .2 grad pgra shep visc morr inte thes cfl .05 csf thes dept off film off expa off csfe .3 mara on heat appa\n"
+    "sph dime 2 hrat 1.5 hsra 2 c0 30 adapt delt .2 grad dens pgra shep visc morr inte thes cfl .05 csf thes dept off film off expa off csfe .3 mara on heat appa\n"
     "latc on vhea on mcfa .2 rela on redu 1.5 shif .3 tens on vsmo on radi .4 290 evap 1e5 froz on mush 9 base -3 jitt .1 5 solids\n"
-    "peri on powe 8 wall 2 velo 1 2 3 temp 120 nost\ntemp 1 155 swel 1 cycl .1 2 stre 1 1 2 3\n"
+    "peri on powe 8 wall 2 velo 1 2 3 temp 120 nost\ntemp 1 155 swel 1 cycl .1 2 swel 2 rate -.2 until 3 stre 1 1 2 3\n"
     "beam 150 .5 .3 alpha 4 line .1 bins 1.5\npath 0 1 2 3 4 5 6 7\npath 1 2 5 6 7 5 6 7 ends\n"
     "load grav 1 0 -9 0 endl velo body 1 1 0 0 endv outr kapp curv pool curx pres 2.4 5.6 .5\nendi\n";
 
@@ -97,14 +97,16 @@ static void test_flow(const struct scene_sph *sph)
 {
     check_true("words: lengths", sph->dimension == 2 && sph->smoothing == 1.5 && sph->wide_smoothing == 2);
     check_true("words: flow", sph->sound_speed == 30 && sph->adapts_sound && sph->density_diffusion == 0.2 && sph->diffuses_gradient
+                                  && sph->diffuses_reference
                                   && sph->pressure == PRESSURE_SHEPARD && sph->viscosity == VISCOSITY_MORRIS
                                   && sph->integrator == INTEGRATOR_PREDICTED && sph->courant == 0.05 && sph->shifting == 0.3
                                   && sph->cuts_tension && sph->varies_smoothing && sph->freezes_flow && sph->is_periodic);
     check_true("words: reduced pressure", sph->reduces_pressure && sph->reference_density == 1.5);
     check_true("words: start", sph->jitter == 0.1 && sph->seed == 5 && sph->jitters_solids && sph->base == -3 && sph->n_temperatures == 1 && sph->temperatures[0].body == 0
                                    && sph->temperatures[0].value == 155 && sph->n_stretches == 1 && sph->stretches[0].factor[2] == 3);
-    check_true("words: swelling", sph->n_swellings == 1 && sph->swellings[0].is_cyclic && sph->swellings[0].amplitude == 0.1
-                                      && sph->swellings[0].frequency == 2);
+    check_true("words: swelling", sph->n_swellings == 2 && sph->swellings[0].form == SWELLING_CYCLE && sph->swellings[0].amplitude == 0.1
+                                      && sph->swellings[0].frequency == 2 && sph->swellings[1].form == SWELLING_STEADY
+                                      && sph->swellings[1].amplitude == -0.2 && sph->swellings[1].end == 3);
     const struct scene_wall *wall = sph->walls;
     check_true("words: wall", sph->n_walls == 1 && wall->body == 1 && wall->velocity[2] == 3 && wall->heat == WALL_TEMPERATURE
                                   && wall->temperature == 120 && wall->no_stick);

@@ -194,6 +194,33 @@ static void test_momentum(void)
     check_near("momentum, pressure over Shepard sums", momentum_left(VISCOSITY_MORRIS, PRESSURE_SHEPARD), 0, 1e-13);
 }
 
+/* Two fluids at rest, one twice as heavy as the other, without pressure: the largest rate of a density by its diffusion. */
+static double rate_at_rest(bool diffuses_reference)
+{
+    struct scene *scene = channel(16, 1.2, false, VISCOSITY_MORRIS);
+    struct timers timers;
+    timers_start(&timers);
+    scene->sph.diffuses_reference = diffuses_reference;
+    struct sph *sph = sph_open(scene, &timers, NULL);
+    sph_step(sph);
+    for (size_t p = 0; p < sph->store->count; p++)
+        sph->columns.density[p] = sph->columns.reference[p] = sph->columns.x[1][p] > 5e-4 ? 2000 : 1000;
+    flow_prepare(sph);
+    flow_density(sph, 0);
+    double most = 0;
+    for (size_t p = 0; p < sph->store->count; p++)
+        most = fmax(most, fabs(sph->rate[p]));
+    sph_close(sph);
+    scene_close(scene);
+    return most;
+}
+
+static void test_diffusion(void)
+{
+    check_true("diffusion does not mix the densities of two fluids", rate_at_rest(false) == 0);
+    check_true("but does where it acts on the density itself", rate_at_rest(true) > 1);
+}
+
 /* Positions after some steps on a number of threads, by id. */
 static double *positions(int threads, size_t *count)
 {
@@ -234,6 +261,7 @@ int main(void)
     test_lists(3, 10, "lists in a space that repeats");
     test_momentum();
     test_channel();
+    test_diffusion();
     test_threads();
     return check_result();
 }

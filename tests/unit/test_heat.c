@@ -187,12 +187,12 @@ static void test_two_materials(double ratio, double tolerance)
     fixture_close(fixture);
 }
 
-/* Two layers of conductivity 1 and 4 until nothing changes (reference heat-two-layer-steady); the flux, 1.6, follows from
- * the drop over the first layer. */
+/* Two layers of conductivity 1 and 4 until nothing changes (reference heat-two-layer-steady); the flux, 1.6, is that
+ * through the walls; the free ends of the strip conduct less. */
 static void test_two_layers(void)
 {
     static const double x[] = {0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95}, expected[] = {0.92, 0.68, 0.44, 0.2, 0.14, 0.08, 0.02};
-    const struct strip strip = {20, 12, 1.0 / 20, 1.2, 1, 0, 0, true};
+    const struct strip strip = {20, 48, 1.0 / 20, 1.5, 1, 0, 0, true};
     struct properties materials[2] = {0};
     fixture_plain_material(&materials[0], 1, 1, 1);
     fixture_plain_material(&materials[1], 1, 1, 4);
@@ -200,6 +200,8 @@ static void test_two_layers(void)
     heat_until(fixture, 1.5, 0.2 * fixture->sph.smoothing * fixture->sph.smoothing / 4);
     check_near("two layers: temperatures", largest_error(fixture, x, expected, 7, 0.3), 0, 0.02);
     check_near("two layers: nothing changes any more", fixture->sph.powers.through_walls / 1.6, 0, 1e-4);
+    check_near("two layers: heat from the hot wall", fixture->sph.body_heat[2] / (1.6 * strip.ny * strip.spacing), 1, 0.02);
+    check_near("two layers: heat into the cold wall", -fixture->sph.body_heat[3] / (1.6 * strip.ny * strip.spacing), 1, 0.02);
     fixture_close(fixture);
 }
 
@@ -459,19 +461,24 @@ static void test_melting_mass(bool relaxes, double factor, double expected)
 
 static void test_swelling(void)
 {
-    struct fixture *fixture = fixture_open(2, 1, 1.2, 2);
-    const struct scene_swelling cyclic = {.is_cyclic = true, .amplitude = -0.05, .frequency = 2}, steady = {.amplitude = -0.2};
-    fixture_constant(&fixture->materials[0], PROPERTY_DENSITY, 1000);
-    fixture_constant(&fixture->materials[1], PROPERTY_DENSITY, 500);
-    fixture->bodies[0].swelling = &cyclic;
-    fixture->bodies[1].swelling = &steady;
-    fixture_block(fixture, 0, SPH_FLUID, (int[]){0, 0, 0}, (int[]){1, 1, 1}, 293);
-    fixture_block(fixture, 1, SPH_FLUID, (int[]){1, 0, 0}, (int[]){2, 1, 1}, 293);
+    struct fixture *fixture = fixture_open(2, 1, 1.2, 4);
+    const struct scene_swelling cyclic = {.form = SWELLING_CYCLE, .amplitude = -0.05, .frequency = 2},
+                                growing = {.form = SWELLING_GROWING, .amplitude = -0.4, .frequency = 2},
+                                steady = {.form = SWELLING_STEADY, .amplitude = -0.2, .end = INFINITY},
+                                ended = {.form = SWELLING_STEADY, .amplitude = -0.2, .end = 0.1};
+    const struct scene_swelling *const swellings[] = {&cyclic, &steady, &growing, &ended};
+    for (int b = 0; b < 4; b++) {
+        fixture_constant(&fixture->materials[b], PROPERTY_DENSITY, b == 1 ? 500 : 1000);
+        fixture->bodies[b].swelling = swellings[b];
+        fixture_block(fixture, b, SPH_FLUID, (int[]){b, 0, 0}, (int[]){b + 1, 1, 1}, 293);
+    }
     fixture_list(fixture);
     fixture->sph.time = 0.125;
     heat_properties(&fixture->sph);
     check_near("swelling: of a sine", fixture->sph.columns.reference[0], 950, 1e-9);
     check_near("swelling: steady", fixture->sph.columns.reference[1], 487.5, 1e-9);
+    check_near("swelling: of a sine that grows", fixture->sph.columns.reference[2], 950, 1e-9);
+    check_near("swelling: ended", fixture->sph.columns.reference[3], 980, 1e-9);
     fixture_close(fixture);
 }
 

@@ -136,6 +136,11 @@ static bool is_strictly_in(const struct half_step *step, const int p[3])
     const int *n = step->number;
     if (*step->shape == 'b')
         return n[0] < p[0] && p[0] < n[1] && n[2] < p[1] && p[1] < n[3] && n[4] < p[2] && p[2] < n[5];
+    if (*step->shape == 'a') {
+        const double wave = n[3] * sin(acos(-1) * (p[0] - n[0]) / (n[1] - n[0])), above = p[1] - n[2];
+        const bool is_under = n[3] > 0 ? 0 < above && above < wave - 1e-7 : 0 > above && above > wave + 1e-7;
+        return n[0] < p[0] && p[0] < n[1] && is_under && n[4] < p[2] && p[2] < n[5];
+    }
     if (*step->shape == 's')
         return (p[0] - n[0]) * (p[0] - n[0]) + (p[1] - n[1]) * (p[1] - n[1]) + (p[2] - n[2]) * (p[2] - n[2]) < n[3] * n[3];
     int axis = n[0], u = p[axis == 0 ? 1 : 0] - n[1], v = p[axis == 2 ? 1 : 2] - n[2];
@@ -148,11 +153,13 @@ static struct solid *make_solid(const struct half_step *steps, int count, const 
     struct solid *solid = solid_open(origin, spacing);
     for (int s = 0; s < count; s++) {
         struct solid_step step = {.operation = steps[s].operation, .shape = solid_shape_find(steps[s].shape)};
-        static const int axes_of_box[] = {0, 0, 1, 1, 2, 2}, axes_of_sphere[] = {0, 1, 2, -1, -1, -1};
+        static const int axes_of_box[] = {0, 0, 1, 1, 2, 2}, axes_of_sphere[] = {0, 1, 2, -1, -1, -1},
+                         axes_of_arch[] = {0, 0, 1, -1, 2, 2};
         for (int i = 0; i < SOLID_NUMBERS; i++) {
             int cylinder_axis = steps[s].number[0];
             int axes_of_cylinder[] = {-1, cylinder_axis == 0 ? 1 : 0, cylinder_axis == 2 ? 1 : 2, -1, cylinder_axis, cylinder_axis};
-            const int *axes = *steps[s].shape == 'b' ? axes_of_box : *steps[s].shape == 's' ? axes_of_sphere : axes_of_cylinder;
+            const int *axes = *steps[s].shape == 'b' ? axes_of_box : *steps[s].shape == 's' ? axes_of_sphere
+                            : *steps[s].shape == 'a' ? axes_of_arch : axes_of_cylinder;
             step.number[i] = 0.5 * steps[s].number[i] * spacing + (axes[i] < 0 ? 0 : origin[axes[i]]);
         }
         if (*steps[s].shape == 'c')
@@ -210,6 +217,11 @@ static void test_shapes(void)
     check_steps("sphere about a point", (struct half_step[]){{SOLID_ADD, "sphere", {1, 3, -5, 10}}}, 1);
     check_steps("sphere about a corner", (struct half_step[]){{SOLID_ADD, "sphere", {0, 2, -4, 15}}}, 1);
     check_steps("large sphere about a point", (struct half_step[]){{SOLID_ADD, "sphere", {1, 1, 1, 26}}}, 1);
+    /* sin 30 degrees is 1/2: points on the wave */
+    check_steps("arch", (struct half_step[]){{SOLID_ADD, "arch", {-11, 13, 1, 20, -4, 6}}}, 1);
+    check_steps("arch that hangs down", (struct half_step[]){{SOLID_ADD, "arch", {-12, 14, 2, -17, -4, 6}}}, 1);
+    check_steps("a wave", (struct half_step[]){{SOLID_ADD, "box", {-20, 20, -20, 0, -2, 2}}, {SOLID_CUT, "arch", {-20, 0, 0, -9, -2, 2}},
+                                               {SOLID_ADD, "arch", {0, 20, 0, 9, -2, 2}}}, 3);
     for (int axis = 0; axis < 3; axis++) {
         check_steps("cylinder about points", (struct half_step[]){{SOLID_ADD, "cyli", {axis, 3, -5, 10, -7, 13}}}, 1);
         check_steps("cylinder about a corner", (struct half_step[]){{SOLID_ADD, "cylinder", {axis, -2, 4, 13, -8, 12}}}, 1);
@@ -255,6 +267,10 @@ static void test_limits(void)
     check_true("limit: ten million points are none", !solid_join(solid, &step) && !solid_fault(solid) && solid_count(solid) == 10000000);
     step.number[0] = 10;
     check_true("a box turned round", solid_join(solid, &step));
+    step = (struct solid_step){.shape = solid_shape_find("arch"), .number = {0, 2, 0, 0, 0, 1}};
+    check_true("an arch without height", solid_join(solid, &step));
+    step.number[3] = -1;
+    check_true("an arch", !solid_join(solid, &step));
     solid_close(solid);
 }
 
