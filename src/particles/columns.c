@@ -37,6 +37,7 @@ static const struct column_row rows[COLUMN_COUNT] = {
     [COLUMN_REFERENCE_DENSITY] = {"reference_density", 1, false, 0, "mass/length^3", "density without pressure at the present temperature"},
     [COLUMN_PRESSURE] = {"pressure", 1, false, 0, "stress", "pressure"},
     [COLUMN_EXCESS_OFFSET] = {"excess_offset", 1, false, 0, "mass/length^3", "part of the density above the reference that gives no pressure"},
+    [COLUMN_OPENED] = {"opened", 1, false, 0, "mass/length^3", "part of the reference density that went by expansion into the open"},
     [COLUMN_EXCESS_GRADIENT] = {"excess_gradient", 3, false, 0, "mass/length^4", "gradient of the density above the reference"},
     [COLUMN_SMOOTHING_LENGTH] = {"smoothing_length", 1, false, 0, "length", "h of the kernel"},
     [COLUMN_VISCOSITY] = {"viscosity", 1, false, 0, "stress*time", "dynamic viscosity"},

@@ -36,7 +36,7 @@ static void add_particle(const struct sph *sph, size_t p, struct sph_portion *su
         acceleration += c->a[a][p] * c->a[a][p];
         sums->momentum[a] += mass * c->v[a][p];
     }
-    const double reference = c->reference[p] + c->excess_offset[p], ratio = c->density[p] / reference;
+    const double reference = sph_rest_density(c, p), ratio = c->density[p] / reference;
     sums->kinetic += 0.5 * mass * speed;
     if (ratio > 0)
         sums->internal += mass * compression_energy(sph->sound_speed * sph->sound_speed, c->density[p], reference);

@@ -49,7 +49,7 @@ static double speed(const struct sph *sph, size_t p)
 
 static double compression(const struct sph *sph, size_t p)
 {
-    return sph->columns.state[p] == SPH_FLUID ? sph->columns.density[p] / sph->columns.reference[p] : 1;
+    return sph->columns.state[p] == SPH_FLUID ? sph->columns.density[p] / sph_rest_density(&sph->columns, p) : 1;
 }
 
 static double expansion(const struct sph *sph, size_t p)

@@ -56,7 +56,7 @@ void flow_prepare(struct sph *sph)
         for (int a = 0; a < 3; a++)
             sph->seen[a][p] = is_fluid ? c->v[a][p] + ahead * c->a[a][p] : c->v[a][p];
         sph->fluid_volume[p] = is_fluid ? c->volume[p] : 0;
-        sph->excess[p] = is_fluid ? c->density[p] - (keeps_reference ? 0 : c->reference[p] + c->excess_offset[p]) : 0;
+        sph->excess[p] = is_fluid ? c->density[p] - (keeps_reference ? 0 : sph_rest_density(c, p)) : 0;
     }
 }
 
@@ -180,7 +180,7 @@ void flow_density(struct sph *sph, double time_step)
         c->shepard[p] = sph->work[0][p];
         c->density[p] += time_step * sph->rate[p];
         c->volume[p] = c->mass[p] / c->density[p];
-        c->pressure[p] = square * (c->density[p] - c->reference[p] - c->excess_offset[p]);
+        c->pressure[p] = square * (c->density[p] - sph_rest_density(c, p));
         if (sph->words->varies_smoothing)
             c->smoothing[p] = sph->smoothing * pow(c->volume[p] / pow(sph->spacing, sph->dimension), 1.0 / sph->dimension);
     }

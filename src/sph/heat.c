@@ -115,15 +115,16 @@ static double openness_of(const struct sph *sph, size_t p)
 
 /* Continuity sees but one side of a particle at a free surface. To let an expansion by heat come about it would have to
  * move away twice as fast, and ever faster while it loses sight of the others: hot layers would fly off. There the
- * pressure is none whatever the expansion. */
+ * pressure is none whatever the expansion, so that it goes into an offset; what comes back takes from the offset first. */
 static void expand_openly(const struct sph *sph, size_t p, double change)
 {
-    const struct sph_columns *c = &sph->columns;
-    const double openness = openness_of(sph, p);
-    if (openness <= 0)
-        return;
-    c->density[p] += openness * change;
-    c->volume[p] = c->mass[p] / c->density[p];
+    double *opened = &sph->columns.opened[p];
+    if (*opened * change > 0) {
+        const double back = copysign(fmin(fabs(*opened), fabs(change)), change);
+        *opened -= back;
+        change -= back;
+    }
+    *opened -= openness_of(sph, p) * change;
 }
 
 void heat_properties(struct sph *sph)
@@ -137,7 +138,7 @@ void heat_properties(struct sph *sph)
         const bool takes_part = c->state[p] == SPH_FLUID || c->state[p] == SPH_SOLID;
         const double before = c->reference[p];
         c->reference[p] = reference_density(sph, p, sph->time);
-        if (sph->expands_openly && c->state[p] == SPH_FLUID && c->reference[p] != before)
+        if (c->opened && c->state[p] == SPH_FLUID)
             expand_openly(sph, p, c->reference[p] - before);
         c->viscosity[p] = property_value(&tables[PROPERTY_VISCOSITY], temperature);
         if (c->conductivity) /* 0 where pairs shall not conduct: walls have a way of their own */
@@ -556,6 +557,8 @@ static void change_state(const struct sph *sph, size_t p, double time)
         return;
     c->state[p] = is_fluid ? SPH_SOLID : SPH_FLUID;
     c->excess_offset[p] = is_fluid ? 0 : offset_of_melt(sph, p, time);
+    if (c->opened)
+        c->opened[p] = 0;
     for (int i = 0; i < 3; i++)
         c->v[i][p] = c->a[i][p] = 0;
 }

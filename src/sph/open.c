@@ -56,6 +56,8 @@ static uint64_t wanted_columns(const struct scene *scene)
         wanted |= column_bit(of_band[i]);
     if (needs_normals(words))
         wanted |= column_bit(COLUMN_NORMAL);
+    if (expands_openly(words))
+        wanted |= column_bit(COLUMN_OPENED);
     if (words->beam.is_on)
         wanted |= column_bit(COLUMN_LASER_POWER);
     if (words->diffuses_gradient)
@@ -221,6 +223,7 @@ void sph_bind(struct sph *sph)
         {&sph->columns.reference, store->real[COLUMN_REFERENCE_DENSITY]},
         {&sph->columns.pressure, store->real[COLUMN_PRESSURE]},
         {&sph->columns.excess_offset, store->real[COLUMN_EXCESS_OFFSET]},
+        {&sph->columns.opened, store->real[COLUMN_OPENED]},
         {&sph->columns.smoothing, store->real[COLUMN_SMOOTHING_LENGTH]},
         {&sph->columns.viscosity, store->real[COLUMN_VISCOSITY]},
         {&sph->columns.shepard, store->real[COLUMN_SHEPARD]},
@@ -260,7 +263,6 @@ static void choose_numbers(struct sph *sph)
     sph->sound_speed = words->sound_speed > 0 ? words->sound_speed : sound_of_scene(sph);
     sph->first_sound = sph->sound_speed;
     sph->needs_normals = needs_normals(words);
-    sph->expands_openly = expands_openly(words);
     for (size_t p = 0; p < sph->store->count; p++)
         sph->has_fixed = sph->has_fixed || sph->columns.state[p] != SPH_FLUID;
     for (size_t b = 0; b < sph->scene->n_bodies; b++) {

@@ -53,8 +53,8 @@ static void change(struct sph *sph, double speed)
     for (size_t p = 0; p < count; p++) {
         if (c->state[p] != SPH_FLUID)
             continue;
-        const double reference = c->reference[p] + c->excess_offset[p];
-        c->density[p] = reference + scale * (c->density[p] - reference);
+        const double rest = sph_rest_density(c, p);
+        c->density[p] = rest + scale * (c->density[p] - rest);
         c->volume[p] = c->mass[p] / c->density[p];
     }
 }

@@ -37,6 +37,7 @@ struct sph_body {
 struct sph_columns {
     double *x[3], *v[3], *a[3];
     double *mass, *volume, *density, *reference, *pressure, *excess_offset;
+    double *opened;                       /* NULL without open expansion */
     double *excess_gradient[3];           /* NULL without diffused gradients */
     double *smoothing;
     double *viscosity, *shepard;
@@ -45,6 +46,12 @@ struct sph_columns {
     double *temperature, *enthalpy, *liquid, *conductivity, *heat_rate, *laser_power; /* NULL without heat (and beam) */
     int32_t *state, *body, *fused; /* the last NULL where nothing asks for it */
 };
+
+/* The density at which a particle has no pressure. */
+static inline double sph_rest_density(const struct sph_columns *c, size_t p)
+{
+    return c->reference[p] + c->excess_offset[p] + (c->opened ? c->opened[p] : 0);
+}
 
 /* Sums that a step leaves behind; a row of results names each for `curv`. All in the units of the deck; in two
  * dimensions per length across the plane. */
@@ -92,7 +99,6 @@ struct sph {
     double first_sound, wanted_sound; /* at the start; what the steps since the last change want (sound.c) */
     double courant;
     bool is_shared;             /* threads share the work: there is enough of it, or a number was asked for */
-    bool expands_openly;        /* free surfaces expand by heat into the open */
     bool has_fixed;             /* walls or solids */
     bool has_moving_walls;
     bool needs_normals;         /* for surface forces, radiation, evaporation, open expansion or shifting */
