@@ -39,14 +39,6 @@ static double not_finite(const struct sph *sph, size_t p)
     return isfinite(sum) ? 0 : NAN;
 }
 
-static double speed(const struct sph *sph, size_t p)
-{
-    double square = 0;
-    for (int a = 0; a < 3 && sph->columns.state[p] == SPH_FLUID; a++)
-        square += sph->columns.v[a][p] * sph->columns.v[a][p];
-    return square;
-}
-
 static double compression(const struct sph *sph, size_t p)
 {
     return sph->columns.state[p] == SPH_FLUID ? sph->columns.density[p] / sph->columns.reference[p] : 1;
@@ -71,7 +63,7 @@ static bool find_leap(const struct sph *sph, struct instability *result)
     const double way = sph->budget.fastest * sph->taken_step / sph->smoothing;
     if (way <= 1)
         return false;
-    result->particle = worst_particle(sph, speed);
+    result->particle = worst_particle(sph, sph_square_of_speed);
     snprintf(result->cause, sizeof result->cause, "a particle moves %.3g smoothing lengths a step", way);
     return true;
 }
@@ -88,14 +80,20 @@ static bool find_density(const struct sph *sph, struct instability *result)
     return true;
 }
 
+/* The particle that the limit of the time step hangs on. */
+static long limiting_particle(const struct sph *sph)
+{
+    return sph->limiting->measure ? worst_particle(sph, sph->limiting->measure) : -1;
+}
+
 static bool find_small_step(const struct sph *sph, struct instability *result)
 {
     const double floor = sph->scene->least_step > 0 ? sph->scene->least_step : LEAST_STEP_FRACTION * sph->first_time_step;
     if (sph->time_step >= floor || sph->time + sph->time_step > sph->scene->end_time)
         return false;
-    result->particle = worst_particle(sph, speed);
+    result->particle = limiting_particle(sph);
     snprintf(result->cause, sizeof result->cause, "the time step fell to %.3g, %.3g of the first one; it is limited by %s",
-             sph->time_step, sph->time_step / sph->first_time_step, sph->limiting);
+             sph->time_step, sph->time_step / sph->first_time_step, sph->limiting->name);
     return true;
 }
 
@@ -103,10 +101,10 @@ static bool find_fixed_step(const struct sph *sph, struct instability *result)
 {
     if (sph->scene->fixed_step == 0 || sph->scene->fixed_step <= sph->stable_step)
         return false;
-    result->particle = worst_particle(sph, speed);
+    result->particle = limiting_particle(sph);
     snprintf(result->cause, sizeof result->cause, "the fixed time step %.3g is above the stable one, %.3g, limited by %s",
-             sph->scene->fixed_step, sph->stable_step, sph->limiting);
-    snprintf(result->advice, sizeof result->advice, "try dtfx %.2g or less, or leave it out", sph->stable_step);
+             sph->scene->fixed_step, sph->stable_step, sph->limiting->name);
+    snprintf(result->advice, sizeof result->advice, "try dtfx %.2g or less, or leave it out", 0.95 * sph->stable_step);
     return true;
 }
 

@@ -25,6 +25,8 @@
 #include "sph/neighbours.h"
 #include "sph/state.h"
 
+struct sph;
+
 /* What a body is to the particles. */
 struct sph_body {
     const struct properties *properties;
@@ -71,6 +73,12 @@ struct sph_powers {
     double evaporated_mass; /* per time */
 };
 
+/* A limit of the time step; the particle with the largest measure sets it (NULL: none does). */
+struct sph_limit {
+    const char *name;
+    double (*measure)(const struct sph *sph, size_t p);
+};
+
 struct sph {
     const struct scene *scene;
     const struct scene_sph *words;
@@ -99,7 +107,7 @@ struct sph {
     double time_step;   /* of the step under way or the next one */
     double taken_step;  /* of the last step */
     double first_time_step, stable_step;
-    const char *limiting; /* what limits the time step, for the log */
+    const struct sph_limit *limiting; /* what limits the time step */
     double updates;     /* particles that took part, summed over steps */
     struct sph_budget budget;
     int32_t *clusters;  /* labels of what belongs together, and a queue; made when first needed */
@@ -154,6 +162,15 @@ static inline bool sph_moves(const struct sph *sph, size_t p)
 {
     const int32_t state = sph->columns.state[p];
     return state == SPH_WALL ? sph_wall_moves(sph->bodies[sph->columns.body[p]].wall) : state == SPH_FLUID;
+}
+
+/* Of fluid; 0 for all else. */
+static inline double sph_square_of_speed(const struct sph *sph, size_t p)
+{
+    double square = 0;
+    for (int a = 0; a < 3 && sph->columns.state[p] == SPH_FLUID; a++)
+        square += sph->columns.v[a][p] * sph->columns.v[a][p];
+    return square;
 }
 
 /* Points the columns of `sph` at those of the store; after each sorting. */
