@@ -2,6 +2,7 @@
 /* Notices a run of smoothed particles that can't be trusted any more. */
 #include "sph/sph.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -80,10 +81,38 @@ static bool find_density(const struct sph *sph, struct instability *result)
     return true;
 }
 
+static double coldness(const struct sph *sph, size_t p)
+{
+    return -sph->columns.temperature[p];
+}
+
+/* Where the deck says that temperatures are in kelvin. */
+static bool find_cold(const struct sph *sph, struct instability *result)
+{
+    if (!(sph->words->radiates || sph->words->evaporates) || !(sph->budget.coldest < 0))
+        return false;
+    result->particle = worst_particle(sph, coldness);
+    snprintf(result->cause, sizeof result->cause, "the temperature of a particle is %.3g, below zero kelvin", sph->budget.coldest);
+    snprintf(result->advice, sizeof result->advice, "more heat is taken from it than it has: look at powe, or try a smaller step by dtfx");
+    return true;
+}
+
 /* The particle that the limit of the time step hangs on. */
 static long limiting_particle(const struct sph *sph)
 {
     return sph->limiting->measure ? worst_particle(sph, sph->limiting->measure) : -1;
+}
+
+/* One with which the time stands still before the end. */
+static bool find_vain_step(const struct sph *sph, struct instability *result)
+{
+    if (sph->time_step > 0.5 * DBL_EPSILON * sph->scene->end_time || sph->time > sph->scene->end_time)
+        return false;
+    result->particle = limiting_particle(sph);
+    snprintf(result->cause, sizeof result->cause, "the time step %.3g is too small to come to the end, %.3g; it is limited by %s",
+             sph->time_step, sph->scene->end_time, sph->limiting->name);
+    snprintf(result->advice, sizeof result->advice, "look at the numbers of the material, in the units of the deck");
+    return true;
 }
 
 static bool find_small_step(const struct sph *sph, struct instability *result)
@@ -123,7 +152,8 @@ static bool find_lost(const struct sph *sph, struct instability *result)
 struct instability sph_check(const struct sph *sph)
 {
     static bool (*const finders[])(const struct sph *, struct instability *) = {find_not_finite, find_leap, find_density,
-                                                                                 find_small_step, find_fixed_step, find_lost};
+                                                                                 find_cold, find_vain_step, find_small_step,
+                                                                                 find_fixed_step, find_lost};
     struct instability result;
     result.is_stopped = false;
     result.particle = -1;

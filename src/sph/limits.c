@@ -31,22 +31,18 @@ static double surface_tension(const struct sph *sph, size_t p)
     return properties_surface_tension(sph->bodies[c->body[p]].properties, c->temperature[p]);
 }
 
-static double least_capacity(const struct properties *properties)
-{
-    const struct property_table *table = &properties->tables[PROPERTY_CAPACITY];
-    double least = INFINITY;
-    for (size_t i = 0; i < table->count; i++)
-        least = fmin(least, table->values[i]);
-    return least;
-}
-
 /* With the heat capacity outside the mush. */
 static double diffusivity(const struct sph *sph, size_t p)
 {
     const struct sph_columns *c = &sph->columns;
     if (!c->conductivity || c->state[p] == SPH_REMOVED)
         return 0;
-    return c->conductivity[p] / (c->density[p] * least_capacity(sph->bodies[c->body[p]].properties));
+    return c->conductivity[p] / (c->density[p] * properties_least_capacity(sph->bodies[c->body[p]].properties));
+}
+
+static double loss_rate(const struct sph *sph, size_t p)
+{
+    return sph->words->radiates || sph->words->evaporates ? heat_loss_rate(sph, p) : 0;
 }
 
 /* --- the limits --- */
@@ -54,27 +50,28 @@ static double diffusivity(const struct sph *sph, size_t p)
 static const struct sph_limit THE_END = {"the end", NULL}, SOUND = {"sound", sph_square_of_speed},
                               VISCOSITY = {"viscosity", kinematic_viscosity}, TENSION = {"surface tension", surface_tension},
                               ACCELERATION = {"acceleration", acceleration_of}, DIFFUSION = {"diffusion of density", NULL},
-                              HEAT = {"heat", diffusivity};
+                              HEAT = {"heat", diffusivity}, LOSS = {"radiation and evaporation", loss_rate};
 
 /* Extremes over the particles that the limits hang on. */
 struct extremes {
-    double kinematic, tension, diffusivity;
+    double kinematic, tension, diffusivity, loss;
     double lightest; /* least density of fluid */
 };
 
 static struct extremes find_extremes(const struct sph *sph)
 {
     const size_t count = sph->store->count;
-    double kinematic = 0, lightest = INFINITY, tension = 0, diffusion = 0;
-#pragma omp parallel for schedule(static) reduction(max : kinematic, tension, diffusion) reduction(min : lightest) if (sph->is_shared)
+    double kinematic = 0, lightest = INFINITY, tension = 0, diffusion = 0, loss = 0;
+#pragma omp parallel for schedule(static) reduction(max : kinematic, tension, diffusion, loss) reduction(min : lightest) if (sph->is_shared)
     for (size_t p = 0; p < count; p++) {
         diffusion = fmax(diffusion, diffusivity(sph, p));
         kinematic = fmax(kinematic, kinematic_viscosity(sph, p));
         tension = fmax(tension, surface_tension(sph, p));
+        loss = fmax(loss, loss_rate(sph, p));
         if (sph->columns.state[p] == SPH_FLUID)
             lightest = fmin(lightest, sph->columns.density[p]);
     }
-    return (struct extremes){kinematic, tension, diffusion, lightest};
+    return (struct extremes){kinematic, tension, diffusion, loss, lightest};
 }
 
 /* The least limit so far. */
@@ -108,6 +105,8 @@ double limits_time_step(struct sph *sph)
     }
     if (extremes.diffusivity > 0)
         take(&least, &HEAT, 0.125 * h * h / extremes.diffusivity);
+    if (extremes.loss > 0)
+        take(&least, &LOSS, 0.25 / extremes.loss);
     if (least.step > sph->scene->end_time)
         least.step = sph->scene->end_time;
     sph->limiting = least.limit;

@@ -166,12 +166,13 @@ static void stretch(struct sph *sph, const struct scene_stretch *row)
     }
 }
 
+/* Of fluid: solids stay, and walls have velocities of their own. */
 static void set_velocity(struct sph *sph, const struct scene_velocity *row)
 {
     const struct scene_body *body = row->kind == VELOCITY_BODY ? &sph->scene->bodies[row->target] : NULL;
     const long first = body ? body->first : row->target, count = body ? body->count : 1;
     for (long id = first; id < first + count; id++)
-        for (int a = 0; a < sph->dimension; a++)
+        for (int a = 0; a < sph->dimension && sph->store->integer[COLUMN_STATE][id] == SPH_FLUID; a++)
             sph->store->real[COLUMN_VELOCITY][a][id] = row->value[a];
 }
 

@@ -60,7 +60,7 @@ struct sph_budget {
     double removed_mass, evaporated_mass;
     long removed;
     double fastest;             /* largest speed of fluid */
-    double hottest;
+    double hottest, coldest;
     double largest_acceleration;
     double least_density_ratio, most_density_ratio; /* of rho over rho0 */
     bool is_finite;
@@ -196,6 +196,9 @@ void heat_flow(struct sph *sph);                     /* sets the heat rate: cond
 void laser_deposit(struct sph *sph);                 /* sets the laser power; with its budget */
 void heat_advance(struct sph *sph, double time_step); /* enthalpy, temperature, liquid fraction, states */
 void heat_free(struct sph *sph);
+
+/* The part of a difference in the temperature of particle p that radiation and evaporation take away per time. */
+double heat_loss_rate(const struct sph *sph, size_t p);
 void laser_free(struct sph *sph);
 
 /* Takes out fluid that left the grid; fluid that came off the metal and is hotter than the deck's limit (remove.c). */
