@@ -59,6 +59,23 @@ static bool find_not_finite(const struct sph *sph, struct instability *result)
     return true;
 }
 
+static double thinness(const struct sph *sph, size_t p)
+{
+    return sph->columns.state[p] == SPH_FLUID ? -sph->columns.reference[p] : -INFINITY;
+}
+
+/* A table of densities that goes on along its last line may come to nothing. */
+static bool find_no_reference(const struct sph *sph, struct instability *result)
+{
+    if (sph->budget.least_reference > 0)
+        return false;
+    result->particle = worst_particle(sph, thinness);
+    snprintf(result->cause, sizeof result->cause, "the density without pressure of a particle is %.3g at its temperature",
+             sph->budget.least_reference);
+    snprintf(result->advice, sizeof result->advice, "give 'prop dens' rows for all temperatures, or leave its 'extr' out; look at swel");
+    return true;
+}
+
 static bool find_leap(const struct sph *sph, struct instability *result)
 {
     const double way = sph->budget.fastest * sph->taken_step / sph->smoothing;
@@ -151,9 +168,9 @@ static bool find_lost(const struct sph *sph, struct instability *result)
 
 struct instability sph_check(const struct sph *sph)
 {
-    static bool (*const finders[])(const struct sph *, struct instability *) = {find_not_finite, find_fixed_step, find_leap,
-                                                                                 find_density, find_cold, find_vain_step,
-                                                                                 find_small_step, find_lost};
+    static bool (*const finders[])(const struct sph *, struct instability *) = {find_not_finite, find_no_reference, find_fixed_step,
+                                                                                 find_leap, find_density, find_cold,
+                                                                                 find_vain_step, find_small_step, find_lost};
     struct instability result;
     result.is_stopped = false;
     result.particle = -1;

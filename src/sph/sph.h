@@ -63,6 +63,7 @@ struct sph_budget {
     double hottest, coldest;
     double largest_acceleration;
     double least_density_ratio, most_density_ratio; /* of rho over rho0 */
+    double least_reference;     /* rho0 */
     bool is_finite;
 };
 
