@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #: Smoothed particles: water (kinematic viscosity 1e-6) at rest between plates 1 mm apart, in a channel that repeats along x.
-#: Driven by an acceleration of 1e-3 (Poiseuille; the largest speed becomes 1.25e-4), after 1 s; with plate=1 by the upper plate at speed
-#: 1e-4 (Couette), after 0.1 s, while the profile is curved. Exact: the series of both. The error is the root mean square of the
-#: velocity over the particles, over the largest speed there is. Cells are particles across; dtsc is cfl.
+#: Driven by an acceleration of 1e-3 (Poiseuille; the largest speed becomes 1.25e-4), after 1 s; with plate=1 by the upper
+#: plate at speed 1e-4 (Couette), after 0.1 s, while the profile is curved. Exact: the series of both. The error is the root
+#: mean square of the velocity over the particles, over the largest speed there is. With more cells it comes to the error of
+#: the viscous force on a lattice, which is 0.964 (Morris) and 0.756 (Monaghan and Gingold) of what it should be at h of 1.2
+#: spacings, 0.997 and 0.886 at 1.5. Cells are particles across; dtsc is cfl.
 BEGIN {
     pi = 3.14159265358979323846; height = 1e-3; viscosity = 1e-6
     gravity = plate ? 0 : 1e-3; speed = plate ? 1e-4 : 0; largest = plate ? speed : gravity * height ^ 2 / (8 * viscosity)
