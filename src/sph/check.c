@@ -168,7 +168,7 @@ static bool find_lost(const struct sph *sph, struct instability *result)
 
 struct instability sph_check(const struct sph *sph)
 {
-    static bool (*const finders[])(const struct sph *, struct instability *) = {find_not_finite, find_no_reference, find_fixed_step,
+    static bool (*const finders[])(const struct sph *, struct instability *) = {find_fixed_step, find_not_finite, find_no_reference,
                                                                                  find_leap, find_density, find_cold,
                                                                                  find_vain_step, find_small_step, find_lost};
     struct instability result;
