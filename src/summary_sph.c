@@ -19,7 +19,7 @@ void summary_sph_check(const struct run *run, FILE *stream)
     fprintf(stream, "%zu particles in %zu bodies: %zu of fluid, %zu of solid, %zu of walls\n", sph->store->count, sph->scene->n_bodies,
             states[SPH_FLUID], states[SPH_SOLID], states[SPH_WALL]);
     fprintf(stream, "spacing %.6g, smoothing length %.6g, sound speed %.6g\n", sph->spacing, sph->smoothing, sph->sound_speed);
-    fprintf(stream, "first time step %.6E, limited by %s, about %.0f steps to the end\n", sph->first_time_step, sph->limiting,
+    fprintf(stream, "first time step %.6E, limited by %s, about %.0f steps to the end\n", sph->first_time_step, sph->limiting->name,
             ceil(sph->scene->end_time / sph->first_time_step));
 }
 
@@ -75,7 +75,7 @@ void summary_sph_end(const struct run *run, double seconds, enum status status, 
     const struct sph *sph = run->sph;
     const struct sph_budget *budget = &sph->budget;
     summary_timers(sph->updates, &run->timers, seconds, stream);
-    fprintf(stream, "neighbours listed %ld times; the last time step was limited by %s", sph->neighbours->builds, sph->limiting);
+    fprintf(stream, "neighbours listed %ld times; the last time step was limited by %s", sph->neighbours->builds, sph->limiting->name);
     if (sph->words->adapts_sound)
         fprintf(stream, "; the sound speed was %.4g at the start and is %.4g", sph->first_sound, sph->sound_speed);
     fprintf(stream, "\n");

@@ -12,6 +12,8 @@
 static const double SAME = 1e-6;
 /* Walls whose boxes are nearer than this, in spacings, touch: they are one wall. */
 static const double TOUCHING = 1.5;
+/* More columns of the beam than this would take longer than all else, and more than 2^31 have no number. */
+static const double MOST_COLUMNS = 1e6, FARTHEST_COLUMN = 1e12;
 
 /* Where a word of the block stands; where it is not given, that of the block. */
 static struct deck_place place_of(const struct reader *reader, const char *name)
@@ -411,6 +413,26 @@ static void check_beam(struct reader *reader)
     check_path_extents(reader);
 }
 
+/* The beam's columns are as wide as its cells; there is a number for each, and for how far it is from 0. */
+static void check_columns(struct reader *reader, double spacing)
+{
+    const struct scene *scene = reader->scene;
+    const struct scene_beam *beam = &scene->sph.beam;
+    const int lateral = (int)scene->sph.dimension - 1;
+    if (!beam->is_on || !(spacing > 0))
+        return;
+    const double cell = (beam->bin > 0 ? beam->bin : 1) * spacing, columns = pow(6 * beam->radius / cell + 2, lateral);
+    if (columns > MOST_COLUMNS)
+        diagnostics_error(reader->diagnostics, beam->place,
+                          "the beam is 6 radii wide, %.3g columns of %.3g; expected at most %.0e: a smaller radius, or larger bins", columns, cell,
+                          MOST_COLUMNS);
+    for (size_t i = 0; i < beam->n_pieces; i++)
+        for (int a = 0; a < lateral; a++)
+            if (fmax(fabs(beam->pieces[i].from[a]), fabs(beam->pieces[i].to[a])) > FARTHEST_COLUMN * cell)
+                diagnostics_error(reader->diagnostics, beam->pieces[i].place, "path is more than %.0e columns of %.3g away from 0 along %c",
+                                  FARTHEST_COLUMN, cell, "xyz"[a]);
+}
+
 void reader_finish_sph(struct reader *reader)
 {
     struct scene *scene = reader->scene;
@@ -438,5 +460,6 @@ void reader_finish_sph(struct reader *reader)
     visit_bodies(reader, boxes, spacing);
     check_gaps(reader, boxes, spacing);
     check_plane(reader, boxes, spacing);
+    check_columns(reader, spacing);
     memory_free(boxes);
 }

@@ -163,9 +163,9 @@ static void velocity_bending(struct reader *reader, const struct deck_word *word
 
 const struct keyword velocity_keywords[] = {
     {.name = "node", .arguments = (const struct argument[]){ID("particle"), VECTOR("vx", "vy", "vz", "length/time")},
-     .apply = velocity_particle, .doc = "velocity of a particle"},
+     .apply = velocity_particle, .doc = "velocity of a particle; with meth sph of fluid only"},
     {.name = "body", .arguments = (const struct argument[]){ID("body"), VECTOR("vx", "vy", "vz", "length/time")},
-     .apply = velocity_body, .doc = "velocity of all particles of a body"},
+     .apply = velocity_body, .doc = "velocity of all particles of a body; with meth sph of fluid only"},
     {.name = "vsin", .methods = METHODS_MPM, .arguments = (const struct argument[]){{"v0", "length/time", ARGUMENT_REAL, LIMIT_NONE}, {0}},
      .apply = velocity_sine, .doc = "v0 sin(pi y / 6) along x for all particles"},
     {.name = "ksin", .methods = METHODS_MPM, .arguments = (const struct argument[]){{"v0", "length/time", ARGUMENT_REAL, LIMIT_NONE}, ID("body"), {0}},

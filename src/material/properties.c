@@ -173,6 +173,15 @@ double properties_capacity(const struct properties *properties, double temperatu
          + properties->kink_capacities[1][i] * (temperature - properties->kink_temperatures[i]);
 }
 
+double properties_least_capacity(const struct properties *properties)
+{
+    const struct property_table *table = &properties->tables[PROPERTY_CAPACITY];
+    double least = INFINITY;
+    for (size_t i = 0; i < table->count; i++)
+        least = fmin(least, table->values[i]);
+    return least;
+}
+
 /* Puts a temperature into the increasing list of kinks, once. */
 static void add_kink(struct properties *properties, double temperature)
 {

@@ -75,6 +75,9 @@ double properties_temperature(const struct properties *properties, double enthal
 /* Slope of the enthalpy: specific heat, with the latent heat over the melting range between solidus and liquidus. */
 double properties_capacity(const struct properties *properties, double temperature);
 
+/* The least of the rows of the specific heat, without latent heat; infinite where it was not given. */
+double properties_least_capacity(const struct properties *properties);
+
 /* Liquid fraction: 0 below the solidus, 1 above the liquidus, linear between; 1 where nothing melts. */
 double properties_liquid(const struct properties *properties, double temperature);
 

@@ -10,7 +10,7 @@ enum { PORTION = 1024 };
 /* What one portion gives. */
 struct sph_portion {
     double kinetic, internal, momentum[3], heat;
-    double fastest, hottest, acceleration, least_ratio, most_ratio;
+    double fastest, hottest, coldest, acceleration, least_ratio, most_ratio, least_reference;
     bool is_finite;
 };
 
@@ -27,6 +27,7 @@ static void add_particle(const struct sph *sph, size_t p, struct sph_portion *su
     if (c->enthalpy && c->state[p] != SPH_WALL)
         sums->heat += mass * c->enthalpy[p];
     sums->hottest = fmax(sums->hottest, c->temperature[p]);
+    sums->coldest = fmin(sums->coldest, c->temperature[p]);
     sums->is_finite = sums->is_finite && isfinite(c->temperature[p]);
     if (c->state[p] != SPH_FLUID)
         return;
@@ -44,6 +45,7 @@ static void add_particle(const struct sph *sph, size_t p, struct sph_portion *su
     sums->acceleration = fmax(sums->acceleration, acceleration);
     sums->least_ratio = fmin(sums->least_ratio, ratio);
     sums->most_ratio = fmax(sums->most_ratio, ratio);
+    sums->least_reference = fmin(sums->least_reference, c->reference[p]);
     sums->is_finite = sums->is_finite && isfinite(speed + acceleration + ratio);
 }
 
@@ -56,9 +58,11 @@ static void add_portion(const struct sph_portion *sums, struct sph_budget *budge
         budget->momentum[a] += sums->momentum[a];
     budget->fastest = fmax(budget->fastest, sums->fastest);
     budget->hottest = fmax(budget->hottest, sums->hottest);
+    budget->coldest = fmin(budget->coldest, sums->coldest);
     budget->largest_acceleration = fmax(budget->largest_acceleration, sums->acceleration);
     budget->least_density_ratio = fmin(budget->least_density_ratio, sums->least_ratio);
     budget->most_density_ratio = fmax(budget->most_density_ratio, sums->most_ratio);
+    budget->least_reference = fmin(budget->least_reference, sums->least_reference);
     budget->is_finite = budget->is_finite && sums->is_finite;
 }
 
@@ -70,7 +74,7 @@ void budget_update(struct sph *sph)
         sph->portions = memory_array(portions, sizeof *sph->portions, "sums");
 #pragma omp parallel for schedule(static) if (sph->is_shared)
     for (size_t k = 0; k < portions; k++) {
-        struct sph_portion sums = {.least_ratio = INFINITY, .is_finite = true};
+        struct sph_portion sums = {.least_ratio = INFINITY, .least_reference = INFINITY, .coldest = INFINITY, .is_finite = true};
         const size_t end = (k + 1) * PORTION < count ? (k + 1) * PORTION : count;
         for (size_t p = k * PORTION; p < end; p++)
             if (sph->columns.state[p] != SPH_REMOVED)
@@ -79,7 +83,7 @@ void budget_update(struct sph *sph)
     }
     budget->kinetic = budget->internal = budget->heat = 0;
     budget->fastest = budget->hottest = budget->largest_acceleration = budget->most_density_ratio = 0;
-    budget->least_density_ratio = INFINITY;
+    budget->least_density_ratio = budget->least_reference = budget->coldest = INFINITY;
     budget->is_finite = true;
     for (int a = 0; a < 3; a++)
         budget->momentum[a] = 0;

@@ -2,6 +2,7 @@
 /* Notices a run of smoothed particles that can't be trusted any more. */
 #include "sph/sph.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -39,14 +40,6 @@ static double not_finite(const struct sph *sph, size_t p)
     return isfinite(sum) ? 0 : NAN;
 }
 
-static double speed(const struct sph *sph, size_t p)
-{
-    double square = 0;
-    for (int a = 0; a < 3 && sph->columns.state[p] == SPH_FLUID; a++)
-        square += sph->columns.v[a][p] * sph->columns.v[a][p];
-    return square;
-}
-
 static double compression(const struct sph *sph, size_t p)
 {
     return sph->columns.state[p] == SPH_FLUID ? sph->columns.density[p] / sph_rest_density(&sph->columns, p) : 1;
@@ -66,12 +59,29 @@ static bool find_not_finite(const struct sph *sph, struct instability *result)
     return true;
 }
 
+static double thinness(const struct sph *sph, size_t p)
+{
+    return sph->columns.state[p] == SPH_FLUID ? -sph->columns.reference[p] : -INFINITY;
+}
+
+/* A table of densities that goes on along its last line may come to nothing. */
+static bool find_no_reference(const struct sph *sph, struct instability *result)
+{
+    if (sph->budget.least_reference > 0)
+        return false;
+    result->particle = worst_particle(sph, thinness);
+    snprintf(result->cause, sizeof result->cause, "the density without pressure of a particle is %.3g at its temperature",
+             sph->budget.least_reference);
+    snprintf(result->advice, sizeof result->advice, "give 'prop dens' rows for all temperatures, or leave its 'extr' out; look at swel");
+    return true;
+}
+
 static bool find_leap(const struct sph *sph, struct instability *result)
 {
     const double way = sph->budget.fastest * sph->taken_step / sph->smoothing;
     if (way <= 1)
         return false;
-    result->particle = worst_particle(sph, speed);
+    result->particle = worst_particle(sph, sph_square_of_speed);
     snprintf(result->cause, sizeof result->cause, "a particle moves %.3g smoothing lengths a step", way);
     return true;
 }
@@ -88,14 +98,48 @@ static bool find_density(const struct sph *sph, struct instability *result)
     return true;
 }
 
+static double coldness(const struct sph *sph, size_t p)
+{
+    return -sph->columns.temperature[p];
+}
+
+/* Where the deck says that temperatures are in kelvin. */
+static bool find_cold(const struct sph *sph, struct instability *result)
+{
+    if (!(sph->words->radiates || sph->words->evaporates) || !(sph->budget.coldest < 0))
+        return false;
+    result->particle = worst_particle(sph, coldness);
+    snprintf(result->cause, sizeof result->cause, "the temperature of a particle is %.3g, below zero kelvin", sph->budget.coldest);
+    snprintf(result->advice, sizeof result->advice, "more heat is taken from it than it has: look at powe, or try a smaller step by dtfx");
+    return true;
+}
+
+/* The particle that the limit of the time step hangs on. */
+static long limiting_particle(const struct sph *sph)
+{
+    return sph->limiting->measure ? worst_particle(sph, sph->limiting->measure) : -1;
+}
+
+/* One with which the time stands still before the end. */
+static bool find_vain_step(const struct sph *sph, struct instability *result)
+{
+    if (sph->time_step > 0.5 * DBL_EPSILON * sph->scene->end_time || sph->time > sph->scene->end_time)
+        return false;
+    result->particle = limiting_particle(sph);
+    snprintf(result->cause, sizeof result->cause, "the time step %.3g is too small to come to the end, %.3g; it is limited by %s",
+             sph->time_step, sph->scene->end_time, sph->limiting->name);
+    snprintf(result->advice, sizeof result->advice, "look at the numbers of the material, in the units of the deck");
+    return true;
+}
+
 static bool find_small_step(const struct sph *sph, struct instability *result)
 {
     const double floor = sph->scene->least_step > 0 ? sph->scene->least_step : LEAST_STEP_FRACTION * sph->first_time_step;
     if (sph->time_step >= floor || sph->time + sph->time_step > sph->scene->end_time)
         return false;
-    result->particle = worst_particle(sph, speed);
+    result->particle = limiting_particle(sph);
     snprintf(result->cause, sizeof result->cause, "the time step fell to %.3g, %.3g of the first one; it is limited by %s",
-             sph->time_step, sph->time_step / sph->first_time_step, sph->limiting);
+             sph->time_step, sph->time_step / sph->first_time_step, sph->limiting->name);
     return true;
 }
 
@@ -103,10 +147,10 @@ static bool find_fixed_step(const struct sph *sph, struct instability *result)
 {
     if (sph->scene->fixed_step == 0 || sph->scene->fixed_step <= sph->stable_step)
         return false;
-    result->particle = worst_particle(sph, speed);
+    result->particle = limiting_particle(sph);
     snprintf(result->cause, sizeof result->cause, "the fixed time step %.3g is above the stable one, %.3g, limited by %s",
-             sph->scene->fixed_step, sph->stable_step, sph->limiting);
-    snprintf(result->advice, sizeof result->advice, "try dtfx %.2g or less, or leave it out", sph->stable_step);
+             sph->scene->fixed_step, sph->stable_step, sph->limiting->name);
+    snprintf(result->advice, sizeof result->advice, "try dtfx %.2g or less, or leave it out", 0.95 * sph->stable_step);
     return true;
 }
 
@@ -124,8 +168,9 @@ static bool find_lost(const struct sph *sph, struct instability *result)
 
 struct instability sph_check(const struct sph *sph)
 {
-    static bool (*const finders[])(const struct sph *, struct instability *) = {find_not_finite, find_leap, find_density,
-                                                                                 find_small_step, find_fixed_step, find_lost};
+    static bool (*const finders[])(const struct sph *, struct instability *) = {find_fixed_step, find_not_finite, find_no_reference,
+                                                                                 find_leap, find_density, find_cold,
+                                                                                 find_vain_step, find_small_step, find_lost};
     struct instability result;
     result.is_stopped = false;
     result.particle = -1;

@@ -17,13 +17,21 @@ static const struct {
     FIELD(wanted_sound),
 };
 
-/* Whether a state that was read is one, and as many are removed as the budget says. */
+/* Whether particles of a body can be in a state. */
+static bool can_be(const struct sph_body *body, int32_t state)
+{
+    if (body->wall)
+        return state == SPH_WALL;
+    return state == SPH_FLUID || state == SPH_REMOVED || (state == SPH_SOLID && body->properties->melts);
+}
+
+/* Whether states that were read can be, and as many are removed as the budget says. */
 static bool are_sound(const struct sph *sph)
 {
-    const int32_t *state = sph->store->integer[COLUMN_STATE];
+    const int32_t *state = sph->store->integer[COLUMN_STATE], *body = sph->store->integer[COLUMN_BODY];
     long removed = 0;
     for (size_t p = 0; p < sph->store->count; p++) {
-        if (state[p] < SPH_FLUID || state[p] > SPH_REMOVED)
+        if (!can_be(&sph->bodies[body[p]], state[p]))
             return false;
         removed += state[p] == SPH_REMOVED;
     }

@@ -458,6 +458,29 @@ static double surface_area(const struct sph *sph, size_t p)
     return sph->columns.volume[p] * sqrt(n[0][p] * n[0][p] + n[1][p] * n[1][p] + (sph->dimension == 3 ? n[2][p] * n[2][p] : 0));
 }
 
+/* Before the first step no surface is known: as much of it as a particle may have. */
+static double largest_area(const struct sph *sph, size_t p)
+{
+    return 2 * sph->columns.volume[p] / (sph->words->wide_smoothing * sph->spacing);
+}
+
+double heat_loss_rate(const struct sph *sph, size_t p)
+{
+    const struct scene_sph *words = sph->words;
+    const struct sph_columns *c = &sph->columns;
+    const struct properties *properties = sph->bodies[c->body[p]].properties;
+    const double temperature = c->temperature[p], area = sph->step > 0 ? surface_area(sph, p) : largest_area(sph, p);
+    double slope = 0;
+    if (!(area > 0 && temperature > 0) || (c->state[p] != SPH_FLUID && c->state[p] != SPH_SOLID))
+        return 0;
+    if (words->radiates)
+        slope += 4 * STEFAN_BOLTZMANN * words->emissivity * temperature * temperature * temperature;
+    if (words->evaporates && c->liquid[p] > 0)
+        slope += vapour_flow(sph, properties, temperature) * properties->vaporisation_heat * properties->molar_mass
+               * properties->vaporisation_heat / (PROPERTIES_GAS_CONSTANT * temperature * temperature);
+    return slope * area / (c->mass[p] * properties_least_capacity(properties));
+}
+
 /* Adds to the rate of particle p what does not come from conduction, and to the sums. */
 static void add_sources(const struct sph *sph, size_t p, struct sph_powers *sums)
 {

@@ -178,12 +178,13 @@ static void stretch(struct sph *sph, const struct scene_stretch *row)
     }
 }
 
+/* Of fluid: solids stay, and walls have velocities of their own. */
 static void set_velocity(struct sph *sph, const struct scene_velocity *row)
 {
     const struct scene_body *body = row->kind == VELOCITY_BODY ? &sph->scene->bodies[row->target] : NULL;
     const long first = body ? body->first : row->target, count = body ? body->count : 1;
     for (long id = first; id < first + count; id++)
-        for (int a = 0; a < sph->dimension; a++)
+        for (int a = 0; a < sph->dimension && sph->store->integer[COLUMN_STATE][id] == SPH_FLUID; a++)
             sph->store->real[COLUMN_VELOCITY][a][id] = row->value[a];
 }
 
@@ -291,8 +292,8 @@ static void create_work(struct sph *sph)
     sph->saw_wide_motion = memory_array(count, sizeof *sph->saw_wide_motion, "the surface");
 }
 
-/* Density where there is no pressure yet: that of the reference, changed so that pressure begins at 0. */
-static void start_densities(struct sph *sph)
+/* Where there is no pressure yet: the density is that of the reference, and gravity alone accelerates. */
+static void start_fluid(struct sph *sph)
 {
     const struct sph_columns *c = &sph->columns;
     heat_properties(sph);
@@ -301,6 +302,8 @@ static void start_densities(struct sph *sph)
             continue;
         c->density[p] = c->reference[p];
         c->volume[p] = c->mass[p] / c->density[p];
+        for (int a = 0; a < sph->dimension; a++)
+            c->a[a][p] = sph->bodies[c->body[p]].gravity[a];
     }
 }
 
@@ -331,7 +334,7 @@ struct sph *sph_open(struct scene *scene, struct timers *timers, struct diagnost
     }
     if (sph->store->count >= SHARED_PARTICLES)
         sph_share_always(sph);
-    start_densities(sph);
+    start_fluid(sph);
     budget_update(sph);
     sph->start_heat = sph->budget.heat;
     sph->first_time_step = sph->time_step = limits_time_step(sph);

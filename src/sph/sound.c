@@ -13,11 +13,33 @@ static const double COMPRESSION = 0.01;
 enum { ADAPT_STEPS = 50 };
 static const double LARGEST_CHANGE = 0.05, LEAST_PART = 0.1;
 
-/* What makes pressure: speeds, hydrostatic columns, surface tension of drops of a few spacings. */
+/* Where a body would be melt. */
+static double temperature_of_melt(const struct sph_body *body)
+{
+    return body->properties->melts ? body->properties->liquidus : column_row(COLUMN_TEMPERATURE)->initial;
+}
+
+static double density_of_melt(const struct sph_body *body)
+{
+    return property_value(&body->properties->tables[PROPERTY_DENSITY], temperature_of_melt(body));
+}
+
+static double heaviest_melt(const struct sph *sph)
+{
+    double most = 0;
+    for (size_t b = 0; b < sph->scene->n_bodies; b++)
+        if (!sph->bodies[b].wall)
+            most = fmax(most, density_of_melt(&sph->bodies[b]));
+    return most;
+}
+
+/* What makes pressure: speeds, hydrostatic columns of the heaviest on each, surface tension of drops of a few
+ * spacings (spec 12). */
 double sound_of_scene(const struct sph *sph)
 {
     double most = 0, low[3], high[3];
     const struct sph_columns *c = &sph->columns;
+    const double heaviest = heaviest_melt(sph);
     for (int a = 0; a < 3; a++)
         low[a] = DBL_MAX, high[a] = -DBL_MAX;
     for (size_t p = 0; p < sph->store->count; p++) {
@@ -30,14 +52,14 @@ double sound_of_scene(const struct sph *sph)
         most = fmax(most, speed);
     }
     for (size_t b = 0; b < sph->scene->n_bodies; b++) {
-        const struct properties *properties = sph->bodies[b].properties;
+        const struct sph_body *body = &sph->bodies[b];
+        const double density = density_of_melt(body);
         double fall = 0;
         for (int a = 0; a < sph->dimension; a++)
-            fall += fabs(sph->bodies[b].gravity[a]) * (high[a] - low[a]);
-        const double temperature = properties->melts ? properties->liquidus : column_row(COLUMN_TEMPERATURE)->initial;
-        const double density = property_value(&properties->tables[PROPERTY_DENSITY], temperature);
-        const double tension = sph->words->surface == SURFACE_OFF ? 0 : properties_surface_tension(properties, temperature);
-        most = fmax(most, fmax(2 * fall, tension / (2 * sph->smoothing * density)));
+            fall += fabs(body->gravity[a]) * (high[a] - low[a]);
+        const double tension =
+            sph->words->surface == SURFACE_OFF ? 0 : properties_surface_tension(body->properties, temperature_of_melt(body));
+        most = fmax(most, fmax(2 * fall * heaviest / density, tension / (2 * sph->smoothing * density)));
     }
     return sqrt(most / COMPRESSION);
 }

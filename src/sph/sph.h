@@ -25,6 +25,8 @@
 #include "sph/neighbours.h"
 #include "sph/state.h"
 
+struct sph;
+
 /* What a body is to the particles. */
 struct sph_body {
     const struct properties *properties;
@@ -65,9 +67,10 @@ struct sph_budget {
     double removed_mass, evaporated_mass;
     long removed;
     double fastest;             /* largest speed of fluid */
-    double hottest;
+    double hottest, coldest;
     double largest_acceleration;
     double least_density_ratio, most_density_ratio; /* of rho over rho0 */
+    double least_reference;     /* rho0 */
     bool is_finite;
 };
 
@@ -76,6 +79,12 @@ struct sph_powers {
     double laser_in, absorbed, reflected, transmitted;
     double radiated, evaporated, through_walls, viscous_heat, volume_heat;
     double evaporated_mass; /* per time */
+};
+
+/* A limit of the time step; the particle with the largest measure sets it (NULL: none does). */
+struct sph_limit {
+    const char *name;
+    double (*measure)(const struct sph *sph, size_t p);
 };
 
 struct sph {
@@ -108,7 +117,7 @@ struct sph {
     double time_step;   /* of the step under way or the next one */
     double taken_step;  /* of the last step */
     double first_time_step, stable_step;
-    const char *limiting; /* what limits the time step, for the log */
+    const struct sph_limit *limiting; /* what limits the time step */
     double updates;     /* particles that took part, summed over steps */
     struct sph_budget budget;
     int32_t *clusters;  /* labels of what belongs together, and a queue; made when first needed */
@@ -165,6 +174,15 @@ static inline bool sph_moves(const struct sph *sph, size_t p)
     return state == SPH_WALL ? sph_wall_moves(sph->bodies[sph->columns.body[p]].wall) : state == SPH_FLUID;
 }
 
+/* Of fluid; 0 for all else. */
+static inline double sph_square_of_speed(const struct sph *sph, size_t p)
+{
+    double square = 0;
+    for (int a = 0; a < 3 && sph->columns.state[p] == SPH_FLUID; a++)
+        square += sph->columns.v[a][p] * sph->columns.v[a][p];
+    return square;
+}
+
 /* Points the columns of `sph` at those of the store; after each sorting. */
 void sph_bind(struct sph *sph);
 
@@ -188,6 +206,9 @@ void heat_flow(struct sph *sph);                     /* sets the heat rate: cond
 void laser_deposit(struct sph *sph);                 /* sets the laser power; with its budget */
 void heat_advance(struct sph *sph, double time_step); /* enthalpy, temperature, liquid fraction, states */
 void heat_free(struct sph *sph);
+
+/* The part of a difference in the temperature of particle p that radiation and evaporation take away per time. */
+double heat_loss_rate(const struct sph *sph, size_t p);
 void laser_free(struct sph *sph);
 
 /* Takes out fluid that left the grid; fluid that came off the metal and is hotter than the deck's limit (remove.c). */

@@ -81,6 +81,10 @@ compare "smoothed particles: a beam, and what goes with it" coverage/beam.mpm ""
 sed '/^dtfx/d; s/^sph/sph pgra shep visc morr inte thes tens on/; s/csf bala/csf thes dept off film off expa off ejec 5000/; s/heat enth/heat appa/; s/rela on/mref start mcfa 0.2/' \
     coverage/sph_beam.mpm >coverage/thesis.mpm
 compare "smoothed particles: a beam, of the dissertation" coverage/thesis.mpm ""
+sed '/^dtfx/d; s/^sph/sph pgra sym visc mg swel 1 rate 1e3/; s/c0 10/c0 auto/; s/wall 3 temp 1600/wall 3 velo 1 0 0 adia nost/; s/beam 50 1e-4 0.3/beam 50 1e-4 0 alpha 2e4 slic bins 1.5/
+    s/^prop 1 surf.*/prop 1 sahu 1.943 5e-4 1723 1.3e-5 3.2e-3 0.0022 -166000/; s/^prop 1 melt/prop 1 abso 2 1700 0.3 3000 0.4\
+&/' coverage/sph_beam.mpm >coverage/values.mpm
+compare "smoothed particles: a beam, values of words" coverage/values.mpm ""
 
 # compared in restart.sh, to their end
 sed 's/!.*//' "$here/property/equilibria.mpm" "$here/property/identity.mpm" "$here/decks/coverage/build_points.mpm" |
@@ -94,7 +98,8 @@ words=$("$mpm3d" --help sph | sed -n 's/^  \([a-z][a-z0-9]*\) .*/\1/p' | grep -v
 [ "$words" ] || { echo "FAIL --help sph lists no words"; failed=1; missing=1; }
 for word in $laws $words usl usf musl gimp cp bimp sgmp tlmp uvfp smal jaum exac xfer pic apic blen bbar cont lagr othe join lite drda ndam damp \
     mscl dtfx dtmi qulo quli lost drop keep ghos open poin grou laye all sett buil scan rast resi phas ther cool fixn quas seos deto load \
-    grav face velo para smoo curx; do
+    grav face velo para smoo curx sym shep mg morr stag thes bala appa enth star auto grad soli nost adia temp cycl rate alph slic line bins \
+    dens capa cond surf sahu abso extr melt boil; do
     grep -qx "$word" seen || { echo "FAIL no deck with '$word' was compared"; failed=1; missing=1; }
 done
 [ "$missing" ] || echo "ok every law and word was compared"

@@ -2,7 +2,7 @@
 # What the cases share. A case is an awk program; with what = "deck" it prints the deck of a run, with what =
 # "measure" it reads the run's animation file and prints one number. Variables given to it:
 #   scheme  words joined by +, such as musl+bimp       words  the same as words of a deck
-#   cells   resolution                                 dtsc   part of the stable time step
+#   cells   resolution                                 dtsc   part of the stable time step; of smoothed particles: cfl
 #   step    last time step of the run (measure only)
 
 # Whether a word is part of the scheme.
@@ -14,6 +14,12 @@ function beyond(size) { return has("gimp") || has("bimp") ? size : 0 }
 # The first lines of a deck.
 function head(title, points) {
     printf "mpm3d %s, %s, %d cells, dtsc %s\nnbco 1\nnbbo 1\nnbmp %d\nnmat 1\n", title, scheme, cells, dtsc, points
+}
+
+# The same for smoothed particles; the words of the scheme, and `more`, stand in their block.
+function sph_head(title, bodies, points, more) {
+    printf "mpm3d %s, %s, %d cells, dtsc %s\nmeth sph\nnbbo %d\nnbmp %d\nnmat 1\ndigits 12\n", title, scheme, cells, dtsc, bodies, points
+    printf "sph\ndime 2\n%s\n%s\nends\n", words, more
 }
 
 function absolute(x) { return x < 0 ? -x : x }
