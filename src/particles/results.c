@@ -3,6 +3,7 @@
 #include "base/tensor.h"
 #include "material/law.h"
 
+#include <math.h>
 #include <strings.h>
 
 #define REAL(source, column, component) ((source)->store->real[column][component][p])
@@ -54,6 +55,12 @@ static double velocity_x(const struct result_source *s, size_t p)
 static double velocity_y(const struct result_source *s, size_t p)
 {
     return REAL(s, COLUMN_VELOCITY, 1);
+}
+
+static double speed(const struct result_source *s, size_t p)
+{
+    double *const *v = s->store->real[COLUMN_VELOCITY];
+    return sqrt(v[0][p] * v[0][p] + v[1][p] * v[1][p] + v[2][p] * v[2][p]);
 }
 
 static double velocity_z(const struct result_source *s, size_t p)
@@ -196,6 +203,7 @@ static const struct result rows[] = {
     {.name = "velx", .unit = "length/time", .doc = "velocity along x", .value = velocity_x},
     {.name = "vely", .unit = "length/time", .doc = "velocity along y", .value = velocity_y},
     {.name = "velz", .unit = "length/time", .doc = "velocity along z", .value = velocity_z},
+    {.name = "spee", .unit = "length/time", .doc = "speed", .value = speed},
     {.name = "cels", .unit = "temperature", .doc = "temperature", .value = temperature},
     {.name = "fail", .methods = METHODS_MPM, .doc = "1 where the material failed", .is_integer = true, .value = failed},
     {.name = "sspd", .methods = METHODS_MPM, .unit = "length/time", .doc = "sound speed of the artificial viscosity", .value = sound_speed},
