@@ -8,6 +8,8 @@
 
 /* Particles nearer than so many h_s belong together. */
 static const double LINKED = 1.2;
+/* In a thread of single particles each is linked with four others; at the surface of a drop with more than six. */
+enum { LEAST_LINKS = 6 };
 /* So many steps from one look at what came off to the next. */
 enum { LOOK_STEPS = 25 };
 enum { UNKNOWN = -1 };
@@ -44,27 +46,45 @@ void remove_outsiders(struct sph *sph)
 
 /* --- what came off --- */
 
-/* Gives `label` to particle `start` and all that are linked with it, by way of others; how many they are. */
-static int32_t label_cluster(struct sph *sph, size_t start, int32_t label)
+/* Gives `label` to the particles linked with `a` that have none, and puts them behind the n of the queue; returns how many
+ * links there are. */
+static int32_t label_linked(struct sph *sph, size_t a, int32_t label, int32_t *n)
 {
     const struct neighbour_lists *near = &sph->neighbours->near;
     const double reach = fmin(LINKED * sph->words->wide_smoothing * sph->spacing, 2 * sph->smoothing), square = reach * reach;
+    int32_t *labels = sph->clusters, *queue = sph->clusters + sph->store->count, links = 0;
+    for (int64_t k = near->first[a]; k < near->first[a + 1]; k++) {
+        const size_t b = (size_t)near->list[k];
+        struct pair pair;
+        if (sph->columns.state[b] == SPH_REMOVED)
+            continue;
+        pair_way(sph, a, b, sph->dimension, &pair);
+        if (pair.square >= square)
+            continue;
+        links++;
+        if (labels[b] != UNKNOWN)
+            continue;
+        labels[b] = label;
+        queue[(*n)++] = (int32_t)b;
+    }
+    return links;
+}
+
+/* Gives `label` to particle `start` and all that are linked with it, by way of others; how many they are. A thread of single
+ * particles holds nothing: what it leads to gets its label back. */
+static int32_t label_cluster(struct sph *sph, size_t start, int32_t label)
+{
     int32_t *labels = sph->clusters, *queue = sph->clusters + sph->store->count, n = 0;
     labels[start] = label;
     queue[n++] = (int32_t)start;
     for (int32_t i = 0; i < n; i++) {
         const size_t a = (size_t)queue[i];
-        for (int64_t k = near->first[a]; k < near->first[a + 1]; k++) {
-            const size_t b = (size_t)near->list[k];
-            struct pair pair;
-            if (labels[b] != UNKNOWN || sph->columns.state[b] == SPH_REMOVED)
-                continue;
-            pair_way(sph, a, b, sph->dimension, &pair);
-            if (pair.square >= square)
-                continue;
-            labels[b] = label;
-            queue[n++] = (int32_t)b;
-        }
+        const int32_t before = n;
+        if (label_linked(sph, a, label, &n) >= LEAST_LINKS || sph->columns.state[a] != SPH_FLUID || i == 0)
+            continue;
+        for (int32_t k = before; k < n; k++)
+            labels[queue[k]] = UNKNOWN;
+        n = before;
     }
     return n;
 }
