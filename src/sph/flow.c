@@ -167,6 +167,14 @@ THREADS_INLINE void all_rates(const struct sph *sph, int dimension, bool varies)
             rate_of(sph, p, dimension, varies);
 }
 
+/* Whether a particle has no neighbour. The way there has left it a density of its own part of the kernel's sum, but what
+ * flies alone has no pressure. */
+static bool is_alone(const struct sph *sph, size_t p)
+{
+    const double self = sph->words->varies_smoothing ? kernel_of(sph->columns.smoothing[p], sph->dimension).value : sph->self_value;
+    return sph->columns.shepard[p] <= sph->columns.volume[p] * self;
+}
+
 void flow_density(struct sph *sph, double time_step)
 {
     const struct sph_columns *c = &sph->columns;
@@ -178,7 +186,7 @@ void flow_density(struct sph *sph, double time_step)
         if (c->state[p] != SPH_FLUID)
             continue;
         c->shepard[p] = sph->work[0][p];
-        c->density[p] += time_step * sph->rate[p];
+        c->density[p] = is_alone(sph, p) ? sph_rest_density(c, p) : c->density[p] + time_step * sph->rate[p];
         c->volume[p] = c->mass[p] / c->density[p];
         c->pressure[p] = square * (c->density[p] - sph_rest_density(c, p));
         if (sph->words->varies_smoothing)
