@@ -21,8 +21,8 @@ for zone in 4 8 last; do
     draw "track_150_state_$zone" track_150 --zone $zone --from top --of liqu --label "liquid fraction" --length-unit m --size 1600x500
     draw "track_150_speed_$zone" track_150 --zone $zone --from top --of spee --label speed --unit m/s --length-unit m --range 0 5 --size 1600x500
 done
-draw spot_full_zone spot_full --of fuse --label "has been melt" --length-unit m --section y=0 --both
-draw spot_full_temperature spot_full --of cels --label temperature --unit K --length-unit m --section y=0
+draw spot_full_zone spot_full --of fuse --label "has been melt" --length-unit m --section y=2e-5 --both
+draw spot_full_temperature spot_full --of cels --label temperature --unit K --length-unit m --section y=2e-5
 
 # drops of tension 10: the pressure in the middle, less than half a radius from it along x and y
 table=$folder/laplace.dat
