@@ -47,7 +47,8 @@ static double compression(const struct sph *sph, size_t p)
 
 static double expansion(const struct sph *sph, size_t p)
 {
-    return -compression(sph, p);
+    const bool is_told = sph->columns.state[p] == SPH_FLUID && compression(sph, p) >= sph->budget.least_density_ratio;
+    return is_told ? -compression(sph, p) : -INFINITY;
 }
 
 static bool find_not_finite(const struct sph *sph, struct instability *result)
