@@ -62,7 +62,8 @@ static double centre_bytes(const struct mpm *mpm)
 
 static double room_bytes(const struct mpm *mpm)
 {
-    return (double)mpm->n_workspaces * (double)sizeof *mpm->workspaces;
+    const double history = (double)mpm->store->n_history * (CHUNK_ROOM * sizeof(double) + sizeof(double *));
+    return (double)mpm->n_workspaces * ((double)sizeof *mpm->workspaces + history);
 }
 
 static const struct account_row {
@@ -124,6 +125,8 @@ void account_columns(const struct store *store, FILE *stream)
         if (store_has(store, (enum column)c))
             fprintf(stream, "  %-24s %7d %12zu\n", row->name, row->components, (size_t)row->components * size * store->count);
     }
+    if (store->n_history > 0)
+        fprintf(stream, "  %-24s %7d %12zu\n", "history", store->n_history, (size_t)store->n_history * sizeof(double) * store->count);
 }
 
 void account_print(const struct mpm *mpm, FILE *stream)

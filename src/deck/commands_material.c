@@ -7,6 +7,8 @@
 #include <math.h>
 #include <string.h>
 
+enum { MOST_ELEMENTS = 10000 };
+
 /* Makes room for material `index`. */
 static struct scene_material *material_at(struct scene *scene, size_t index)
 {
@@ -46,11 +48,52 @@ static void skip_to_next_material(struct reader *reader)
         text_next(reader->text, &reader->last);
 }
 
+/* Reads the number of elements that stand behind the parameters, and each of them; false, after an error, where one is wrong. */
+static bool read_elements(struct reader *reader, struct material *material)
+{
+    static const struct argument number[] = {{"n", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}};
+    struct value n[2], values[LAW_PARAMETERS];
+    char owner[40];
+    if (!reader_values(reader, number, material->law->name, n))
+        return false;
+    if (n[0].integer > MOST_ELEMENTS) {
+        diagnostics_error(reader->diagnostics, n[0].word.place, "n of %s must be at most %d, not %ld", material->law->name,
+                          MOST_ELEMENTS, n[0].integer);
+        return false;
+    }
+    for (int i = 0; i < n[0].integer; i++) {
+        snprintf(owner, sizeof owner, "element %d of %s", i + 1, material->law->name);
+        if (!reader_values(reader, material->law->element, owner, values))
+            return false;
+        material->elements = memory_grow(material->elements, &material->elements_capacity, (size_t)i + 1, sizeof *material->elements,
+                                         "elements");
+        material->elements[material->n_elements++] = (struct law_element){.young = values[0].real, .time = values[1].real};
+    }
+    return true;
+}
+
+/* Takes the law's words on the same line; false, after an error, where something else stands there. */
+static bool read_words(struct reader *reader, struct material *material)
+{
+    const struct law *law = material->law;
+    char expected[120] = "", owner[60];
+    for (int i; (i = reader_optional(reader, law->words)) >= 0;)
+        material->words |= 1u << i;
+    if (!reader_has_more(reader) || next_is_material(reader))
+        return true;
+    for (int i = 0; law->words[i]; i++) {
+        const size_t length = strlen(expected);
+        snprintf(expected + length, sizeof expected - length, "%s%s", i == 0 ? "" : law->words[i + 1] ? ", " : " or ", law->words[i]);
+    }
+    snprintf(owner, sizeof owner, "the %d element%s of %s", material->n_elements, material->n_elements == 1 ? "" : "s", law->name);
+    reader_expect(reader, owner, expected);
+    return false;
+}
+
 /* Fills a material from the parameters of its law; false (and an error) where they don't fit. */
 static bool prepare(struct reader *reader, const struct law *law, const struct deck_word *word,
                     const struct value *values, struct material *material)
 {
-    *material = (struct material){.law = law};
     for (int i = 0; i < argument_count(law->parameters); i++)
         material->parameter[i] = values[i].real;
     const char *wrong = law->prepare(material);
@@ -79,8 +122,11 @@ static bool read_law(struct reader *reader, struct scene_material *entry)
     const struct law *law = law_find(text_copy(&word, name, sizeof name));
     entry->place = word.place;
     if (law && !law->later) {
+        memory_free(entry->material.elements);
+        entry->material = (struct material){.law = law};
         reader->in_materials = true;
         bool good = reader_values(reader, law->parameters, law->name, values);
+        good = good && (!law->element || read_elements(reader, &entry->material)) && (!law->words || read_words(reader, &entry->material));
         reader->in_materials = false;
         return good && prepare(reader, law, &word, values, &entry->material);
     }
@@ -128,6 +174,7 @@ static long read_material(struct reader *reader, bool has_ended)
         entry = material_at(reader->scene, (size_t)id.integer - 1);
     if (good || (text_peek(reader->text, &next) && !reader_is_real(&next, &real)))
         entry->is_given = read_law(reader, entry);
+    memory_free(nowhere.material.elements);
     if (good && entry->is_given)
         return id.integer;
     reader->has_bad_material = true;

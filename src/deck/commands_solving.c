@@ -425,11 +425,14 @@ static void check_equilibrium(struct reader *reader)
         diagnostics_error(reader->diagnostics, place, "'quas' does not go with 'QuLo': loads act in full");
     if (scene->n_velocities > 0)
         diagnostics_error(reader->diagnostics, place, "'quas' does not go with 'velo': nothing moves on its own");
-    for (size_t i = 0; i < scene->n_materials; i++)
-        if (scene->materials[i].is_given && scene->materials[i].material.law->needs_eos)
+    for (size_t i = 0; i < scene->n_materials; i++) {
+        const struct law *law = scene->materials[i].material.law;
+        if (scene->materials[i].is_given && (law->needs_eos || law->follows_time))
             diagnostics_error(reader->diagnostics, place,
-                              "'quas' does not go with '%s': only with laws that have an elastic stiffness",
-                              scene->materials[i].material.law->name);
+                              law->needs_eos ? "'quas' does not go with '%s': only with laws that have an elastic stiffness"
+                                             : "'quas' does not go with '%s', whose stress follows the time: equilibria have none",
+                              law->name);
+    }
 }
 
 /* Pairs of words that do not go together (spec 10.1: D10, D12), and words that need others. */

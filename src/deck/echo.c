@@ -138,6 +138,19 @@ static void echo_solving(const struct scene *scene, FILE *stream)
         print_line(stream, "quli", scene->settling, 2);
 }
 
+/* The elements of a law that has some, and the words behind them. */
+static void echo_elements(const struct material *material, FILE *stream)
+{
+    if (!material->law->element)
+        return;
+    fprintf(stream, " %d", material->n_elements);
+    for (int i = 0; i < material->n_elements; i++)
+        echo_numbers(stream, (const double[]){material->elements[i].young, material->elements[i].time}, 2);
+    for (int i = 0; material->law->words[i]; i++)
+        if (material->words >> i & 1)
+            fprintf(stream, " %s", material->law->words[i]);
+}
+
 /* The mass cutoff comes from the cell size that is known when mate is read (spec 3.1). */
 static void echo_materials(const struct scene *scene, FILE *stream)
 {
@@ -148,6 +161,7 @@ static void echo_materials(const struct scene *scene, FILE *stream)
         const struct material *material = &scene->materials[i].material;
         fprintf(stream, "  %zu %s", i + 1, material->law->name);
         echo_numbers(stream, material->parameter, argument_count(material->law->parameters));
+        echo_elements(material, stream);
         fprintf(stream, "\n");
     }
     for (size_t i = 0; i < scene->n_materials; i++) {

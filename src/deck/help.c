@@ -29,6 +29,21 @@ static void print_argument_table(FILE *stream, const struct argument *arguments)
     }
 }
 
+/* The words of a law in the order of the deck: parameters, elements, words that may follow. */
+static void print_law_order(FILE *stream, const struct law *law)
+{
+    print_arguments(stream, law->parameters);
+    if (law->element) {
+        fprintf(stream, " n");
+        for (int i = 1; i <= 2; i++)
+            for (int k = 0; k < argument_count(law->element); k++)
+                fprintf(stream, "%s %s_%s", i == 2 && k == 0 ? " ..." : "", law->element[k].name, i == 1 ? "1" : "n");
+    }
+    for (int i = 0; law->words && law->words[i]; i++)
+        fprintf(stream, " [%s]", law->words[i]);
+    fprintf(stream, "\n");
+}
+
 /* What the doc of a row ends with that not all methods have. */
 static const char *method_note(unsigned methods)
 {
@@ -184,9 +199,10 @@ static bool help_other(const char *word, FILE *stream)
     const struct result *result = result_find(word);
     if (law) {
         fprintf(stream, "law %s", law->name);
-        print_arguments(stream, law->parameters);
-        fprintf(stream, "\n    %s%s%s\n", law->doc, method_note(law->methods), law->later ? " (not in this version)" : "");
+        print_law_order(stream, law);
+        fprintf(stream, "    %s%s%s\n", law->doc, method_note(law->methods), law->later ? " (not in this version)" : "");
         print_argument_table(stream, law->parameters);
+        print_argument_table(stream, law->element);
     }
     if (generator) {
         fprintf(stream, "part %s component\n   ", generator->name);
@@ -232,14 +248,33 @@ static void manual_head(FILE *stream, const char *title)
     fprintf(stream, "\n### %s\n\n| word | what | arguments |\n|---|---|---|\n", title);
 }
 
-static void manual_row(FILE *stream, const char *name, const char *doc, const struct argument *arguments, const char *later,
-                       unsigned methods)
+/* A row up to its arguments. */
+static void manual_row_begin(FILE *stream, const char *name, const char *doc, const char *later, unsigned methods)
 {
     fprintf(stream, "| `%s` | ", name);
     for (const char *c = doc; *c; c++) /* a bar in a text would end its column */
         fprintf(stream, *c == '|' ? "\\|" : "%c", *c);
     fprintf(stream, "%s%s | ", method_note(methods), later ? " (not in this version)" : "");
+}
+
+static void manual_row(FILE *stream, const char *name, const char *doc, const struct argument *arguments, const char *later,
+                       unsigned methods)
+{
+    manual_row_begin(stream, name, doc, later, methods);
     manual_arguments(stream, arguments);
+    fprintf(stream, " |\n");
+}
+
+static void manual_law(FILE *stream, const struct law *law)
+{
+    manual_row_begin(stream, law->name, law->doc, law->later, law->methods);
+    manual_arguments(stream, law->parameters);
+    if (law->element) {
+        fprintf(stream, "; `n`, and n times ");
+        manual_arguments(stream, law->element);
+    }
+    for (int i = 0; law->words && law->words[i]; i++)
+        fprintf(stream, "%s`%s`", i == 0 ? "; words: " : ", ", law->words[i]);
     fprintf(stream, " |\n");
 }
 
@@ -278,7 +313,7 @@ void help_manual(FILE *stream)
     manual_properties(stream);
     manual_head(stream, "Laws of mate");
     for (const struct law *const *law = law_rows(); *law; law++)
-        manual_row(stream, (*law)->name, (*law)->doc, (*law)->parameters, (*law)->later, (*law)->methods);
+        manual_law(stream, *law);
     manual_head(stream, "Types of seos");
     for (const struct eos *eos = eos_rows(); eos->type; eos++) {
         fprintf(stream, "| `%d` | %s: %s | ", eos->type, eos->name, eos->doc);

@@ -29,8 +29,10 @@ void scene_close(struct scene *scene)
         return;
     for (size_t b = 0; b < scene->n_bodies; b++)
         generator_close(&scene->bodies[b].generator);
-    for (size_t i = 0; i < scene->n_materials; i++)
+    for (size_t i = 0; i < scene->n_materials; i++) {
         properties_close(&scene->materials[i].properties);
+        memory_free(scene->materials[i].material.elements);
+    }
     memory_free(scene->title);
     memory_free(scene->job);
     memory_free(scene->materials);

@@ -5,15 +5,18 @@
 
 #include <math.h>
 
-void law_prepare_elastic(struct material *material, bool has_viscous_speed)
+void law_set_elastic(struct material *material, double young, double poisson, bool has_viscous_speed)
 {
-    double young = material->parameter[LAW_YOUNG];
-    double poisson = material->parameter[LAW_POISSON];
     material->density = material->parameter[LAW_DENSITY];
     material->shear_modulus = young / (2 * (1 + poisson));
     material->bulk_modulus = young / (3 * (1 - 2 * poisson));
     material->wave_speed = sqrt(young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson) * material->density));
     material->viscous_speed = has_viscous_speed ? material->wave_speed : 0;
+}
+
+void law_prepare_elastic(struct material *material, bool has_viscous_speed)
+{
+    law_set_elastic(material, material->parameter[LAW_YOUNG], material->parameter[LAW_POISSON], has_viscous_speed);
 }
 
 static const char *prepare(struct material *material)

@@ -15,6 +15,12 @@ enum { LAW_PARAMETERS = 16 };
 struct law;
 struct eos;
 
+/* An element of a viscoelastic law: a spring and a dashpot in a row. */
+struct law_element {
+    double young, time; /* as the deck has them: modulus and relaxation time */
+    double shear, bulk; /* what follows from them; no bulk where pressure does not relax */
+};
+
 /* A material of the deck: a law with its numbers, and what follows from them once. */
 struct material {
     const struct law *law;
@@ -31,6 +37,10 @@ struct material {
     double eos_constant[8];           /* in the order of its row, after its preparation */
     double eos_number[LAW_PARAMETERS]; /* as the deck has them */
     double initial_energy;            /* E0, per initial volume */
+    struct law_element *elements;     /* on the heap; the scene closes them */
+    size_t elements_capacity;
+    int n_elements;
+    unsigned words;                   /* a bit for each of the law's words that the deck has */
 };
 
 /* Points of one material in one step. Arrays have `count` entries; pointers of columns that the
@@ -63,6 +73,8 @@ struct law_batch {
     double *restrict lighting_time;
     double *restrict deformation[9];    /* deformation gradient less 1, already that of this step */
     double *restrict first_stress[9];   /* first Piola-Kirchhoff stress, total Lagrangian only */
+    double *const *history;             /* stresses of elements, six components each, from history_from on */
+    int history_from;
 };
 
 /* A row of the table. */
@@ -70,8 +82,11 @@ struct law {
     const char *name; /* the word in the deck */
     const char *doc;
     const struct argument *parameters;
+    const struct argument *element; /* behind the parameters their number n, and n times these; NULL: no elements */
+    const char *const *words;       /* that may stand behind all numbers, ended by NULL; NULL: none */
     unsigned methods;       /* METHODS_... that it belongs to */
     enum column columns[8]; /* columns beyond those of every MPM scene, ended by COLUMN_NONE */
+    bool follows_time;      /* the stress changes also at rest */
     bool rotates;           /* the old stress is rotated before the update (spec 6.3) */
     bool needs_eos;         /* pressure and energy come from an equation of state (spec 6.7) */
     bool keeps_equivalent;  /* writes the column of the von Mises stress itself */
@@ -96,12 +111,24 @@ enum { LAW_DENSITY, LAW_YOUNG, LAW_POISSON };
  * speed when `has_viscous_speed` (spec 3.3: only elas and neoh have one). */
 void law_prepare_elastic(struct material *material, bool has_viscous_speed);
 
+/* The same for Young's modulus and Poisson's ratio that are not parameters; takes the density from these. */
+void law_set_elastic(struct material *material, double young, double poisson, bool has_viscous_speed);
+
+/* Columns of a material's history: six for each element. */
+static inline int law_history(const struct material *material)
+{
+    return 6 * material->n_elements;
+}
+
 /* Rotation of the old stress by the spin increments, explicit (spec 6.3). */
 void law_rotate_explicit(const struct law_batch *batch);
 
 /* Rotation by the orthogonal tensor (1 - W/2)^-1 (1 + W/2) of Hughes and Winget (Int. J. Numer.
  * Meth. Engng 15, 1980): invariants of the stress are kept to round-off. */
 void law_rotate_exact(const struct law_batch *batch);
+
+/* Turns the stresses of elements as `rotate` turns the stress. */
+void law_rotate_history(const struct law_batch *batch, void (*rotate)(const struct law_batch *batch));
 
 /* Energy of the laws without equation of state, before and after the update (spec 6.5, 6.6):
  * the first keeps the old part of the work, the second adds the new part, the artificial
@@ -123,6 +150,6 @@ THREADS_INLINE void law_elastic_trial(const struct law_batch *batch, int j, doub
     }
 }
 
-extern const struct law law_elas, law_pla1, law_pla2, law_john, law_sjc, law_sjcf, law_jcf, law_hiex, law_null, law_dpm, law_neoh, law_flui;
+extern const struct law law_elas, law_pla1, law_pla2, law_john, law_sjc, law_sjcf, law_jcf, law_hiex, law_null, law_dpm, law_neoh, law_maxw, law_flui;
 
 #endif

@@ -68,3 +68,13 @@ void law_rotate_exact(const struct law_batch *batch)
     for (int j = 0; j < count; j++)
         rotate_point(batch, j);
 }
+
+void law_rotate_history(const struct law_batch *batch, void (*rotate)(const struct law_batch *batch))
+{
+    struct law_batch element = *batch;
+    for (int i = 0; i < batch->material->n_elements; i++) {
+        for (int a = 0; a < 6; a++)
+            element.stress[a] = batch->history[6 * i + a] + batch->history_from;
+        rotate(&element);
+    }
+}

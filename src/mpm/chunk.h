@@ -22,6 +22,8 @@ struct workspace {
     double strain[6][CHUNK_ROOM], spin[3][CHUNK_ROOM], trace[CHUNK_ROOM];
     double volume_before[CHUNK_ROOM], work[CHUNK_ROOM], terms[2][CHUNK_ROOM];
     double copy[48][CHUNK_ROOM]; /* columns of a portion that is not in one piece */
+    double **history;            /* where the portion's history is, a pointer a column */
+    double *history_copy;        /* room for it, CHUNK_ROOM a column */
     double patch[8 * LARGEST_PATCH];
     double vectors[2][LANES * LARGEST_PATCH]; /* two vector fields of the patch, node by node */
     double weight[3][3][CHUNK_ROOM], slope[3][3][CHUNK_ROOM]; /* of wide supports, per axis and node */

@@ -60,6 +60,17 @@ static uint64_t wanted_columns(const struct scene *scene)
     return wanted;
 }
 
+/* Columns of history: those of the material that has most. */
+static int most_history(const struct scene *scene)
+{
+    int most = 0;
+    for (size_t i = 0; i < scene->n_materials; i++) {
+        const int history = law_history(&scene->materials[i].material);
+        most = history > most ? history : most;
+    }
+    return most;
+}
+
 /* Where a generator's points go. */
 struct filling {
     const struct scene *scene;
@@ -109,6 +120,7 @@ static void create_particles(struct mpm *mpm)
 {
     const struct scene *scene = mpm->scene;
     mpm->store = store_open((size_t)scene->n_particles, wanted_columns(scene));
+    store_open_history(mpm->store, most_history(scene));
     struct filling filling = {.scene = scene, .store = mpm->store};
     for (size_t b = 0; b < scene->n_bodies; b++) {
         filling.body = (int32_t)b;
@@ -359,6 +371,26 @@ static void find_near_particles(struct mpm *mpm, struct scene *scene, struct dia
     }
 }
 
+static void create_workspaces(struct mpm *mpm)
+{
+    const size_t history = (size_t)mpm->store->n_history;
+    mpm->n_workspaces = threads_available();
+    mpm->workspaces = memory_array((size_t)mpm->n_workspaces, sizeof *mpm->workspaces, "threads");
+    for (int i = 0; i < mpm->n_workspaces; i++) {
+        mpm->workspaces[i].history = memory_array(history, sizeof(double *), "threads");
+        mpm->workspaces[i].history_copy = memory_array(history * CHUNK_ROOM, sizeof(double), "threads");
+    }
+}
+
+static void close_workspaces(struct mpm *mpm)
+{
+    for (int i = 0; i < mpm->n_workspaces; i++) {
+        memory_free(mpm->workspaces[i].history);
+        memory_free(mpm->workspaces[i].history_copy);
+    }
+    memory_free(mpm->workspaces);
+}
+
 static void start_sums(struct mpm *mpm)
 {
     mpm->sums = mpm_total(mpm);
@@ -401,8 +433,7 @@ struct mpm *mpm_open(struct scene *scene, struct timers *timers, struct diagnost
     warn_of_faces(mpm, diagnostics);
     overlap_warn(mpm, diagnostics);
     faces_open(mpm);
-    mpm->n_workspaces = threads_available();
-    mpm->workspaces = memory_array((size_t)mpm->n_workspaces, sizeof *mpm->workspaces, "threads");
+    create_workspaces(mpm);
     start_sums(mpm);
     mpm->equilibrium = equilibrium_open(mpm);
     return mpm;
@@ -433,7 +464,7 @@ void mpm_close(struct mpm *mpm)
     memory_free(mpm->component_of_body);
     memory_free(mpm->material_of_body);
     memory_free(mpm->material_number_of_body);
-    memory_free(mpm->workspaces);
+    close_workspaces(mpm);
     memory_free(mpm->block_sums);
     memory_free(mpm);
 }

@@ -64,6 +64,9 @@ static struct law_batch open_batch(const struct mpm *mpm, const struct chunk *ch
     for (int i = 0, copy = COPY_CHANGED; i < CHANGED; i++)
         for (int a = 0; a < column_row(changed[i].column)->components && store->real[changed[i].column][a]; a++)
             pointers_of(&batch, i)[a] = chunk_read(chunk, store->real[changed[i].column][a], w->copy[copy++]);
+    for (int k = 0; k < store->n_history; k++)
+        w->history[k] = chunk_read(chunk, store->history[k], w->history_copy + (size_t)k * CHUNK_ROOM);
+    batch.history = w->history;
     return batch;
 }
 
@@ -73,6 +76,8 @@ static void close_batch(const struct mpm *mpm, const struct chunk *chunk, struct
     for (int i = 0; i < CHANGED && !chunk->is_one_piece; i++)
         for (int a = 0; a < column_row(changed[i].column)->components && store->real[changed[i].column][a]; a++)
             chunk_write(chunk, store->real[changed[i].column][a], pointers_of(batch, i)[a]);
+    for (int k = 0; k < store->n_history && !chunk->is_one_piece; k++)
+        chunk_write(chunk, store->history[k], batch->history[k]);
 }
 
 /* The points from ... to - 1 of a batch, of one material. */
@@ -91,6 +96,7 @@ static struct law_batch part_of(const struct law_batch *whole, int32_t from, int
     part.work += from;
     part.terms[0] += from;
     part.terms[1] += from;
+    part.history_from += from;
     for (int i = 0; i < CHANGED; i++)
         for (int a = 0; a < column_row(changed[i].column)->components && pointers_of(&part, i)[a]; a++)
             pointers_of(&part, i)[a] += from;
@@ -119,8 +125,10 @@ static void advance(const struct mpm *mpm, const struct law_batch *batch)
         law_eos_work_before(batch);
         batch->material->eos->pressure(batch);
     }
-    if (mpm->rotate && law->rotates)
+    if (mpm->rotate && law->rotates) {
         mpm->rotate(batch);
+        law_rotate_history(batch, mpm->rotate);
+    }
     if (!law->needs_eos)
         law_energy_before(batch);
     law->update(batch);

@@ -86,6 +86,13 @@ struct store *store_open(size_t count, uint64_t wanted)
     return store;
 }
 
+void store_open_history(struct store *store, int components)
+{
+    store->history = memory_array((size_t)components, sizeof *store->history, "history");
+    for (store->n_history = 0; store->n_history < components; store->n_history++)
+        store->history[store->n_history] = memory_array(store->count, sizeof(double), "history");
+}
+
 void store_close(struct store *store)
 {
     if (!store)
@@ -95,6 +102,9 @@ void store_close(struct store *store)
         for (int a = 0; a < COLUMN_COMPONENTS; a++)
             memory_free(store->real[c][a]);
     }
+    for (int k = 0; k < store->n_history; k++)
+        memory_free(store->history[k]);
+    memory_free(store->history);
     memory_free(store->index_of_id);
     memory_free(store->scratch);
     memory_free(store);
@@ -134,6 +144,8 @@ void store_reorder(struct store *store, const int32_t *order, size_t count)
         for (int a = 0; a < COLUMN_COMPONENTS && store->real[c][a]; a++)
             reorder_real(store, &store->real[c][a], order, count);
     }
+    for (int k = 0; k < store->n_history; k++)
+        reorder_real(store, &store->history[k], order, count);
     const int32_t *id = store->integer[COLUMN_ID];
 #pragma omp parallel for schedule(static) if (count >= SHARED_PARTICLES)
     for (size_t k = 0; k < count; k++)
@@ -142,7 +154,7 @@ void store_reorder(struct store *store, const int32_t *order, size_t count)
 
 size_t store_bytes_per_particle(const struct store *store)
 {
-    size_t bytes = sizeof *store->index_of_id + sizeof *store->scratch;
+    size_t bytes = sizeof *store->index_of_id + sizeof *store->scratch + (size_t)store->n_history * sizeof(double);
     for (int c = COLUMN_NONE + 1; c < COLUMN_COUNT; c++) {
         if (store->integer[c])
             bytes += sizeof(int32_t);
@@ -186,6 +198,8 @@ void store_exchange(struct store *store, struct checkpoint *checkpoint, size_t b
         for (int a = 0; a < row->components && store->real[c][a]; a++)
             checkpoint_item(checkpoint, row->name, store->real[c][a], sizeof(double), store->count);
     }
+    for (int k = 0; k < store->n_history; k++)
+        checkpoint_item(checkpoint, "history", store->history[k], sizeof(double), store->count);
     if (checkpoint_is_reading(checkpoint) && checkpoint_is_good(checkpoint) && !index_particles(store, bodies))
         checkpoint_reject(checkpoint, "ids and bodies");
 }

@@ -81,12 +81,17 @@ struct store {
     size_t count;
     double *real[COLUMN_COUNT][COLUMN_COMPONENTS];
     int32_t *integer[COLUMN_COUNT];
+    double **history; /* columns of laws that keep more the more a deck tells them to */
+    int n_history;
     int32_t *index_of_id; /* where the particle of an id is now */
     double *scratch;      /* room for one component while sorting */
 };
 
 /* Allocates the columns in `wanted` (a bit for each column) for `count` particles. */
 struct store *store_open(size_t count, uint64_t wanted);
+
+/* Adds `components` columns of history, all zero. */
+void store_open_history(struct store *store, int components);
 void store_close(struct store *store);
 
 bool store_has(const struct store *store, enum column column);

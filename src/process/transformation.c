@@ -73,11 +73,14 @@ void transformation_set_residual(const struct scene *scene, struct store *store)
  * returns the change of its energy. */
 static double add_strain(const struct scene *scene, struct store *store, size_t p, double strain)
 {
-    const double change = 3 * material_of(scene, store, p)->material.bulk_modulus * strain;
+    const struct material *material = &material_of(scene, store, p)->material;
+    const double change = 3 * material->bulk_modulus * strain;
     double trace = 0;
     for (int a = 0; a < 3; a++) {
         trace += store->real[COLUMN_STRESS][a][p];
         store->real[COLUMN_STRESS][a][p] -= change;
+        for (int i = 0; i < material->n_elements; i++) /* their part relaxes from now on */
+            store->history[6 * i + a][p] -= 3 * material->elements[i].bulk * strain;
     }
     if (store_has(store, COLUMN_MEAN_STRESS))
         store->real[COLUMN_MEAN_STRESS][0][p] -= change;

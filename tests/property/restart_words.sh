@@ -58,6 +58,7 @@ done
 compare "usl, lite" reference/bar_usl.mpm "lite 0.01"
 compare "bimp, blend" reference/bar_usf.mpm "bimp xfer blend 0.9"
 compare "gimp cp, jaum exact, dtmi" reference/bar_musl.mpm "gimp cp jaum exact dtmi 1e-12"
+compare "maxw, particles out of order" coverage/law_maxw_turn.mpm "sort off jaum on"
 compare "join" reference/contact_friction.mpm "cont lagr 0.2 0 join"
 compare "smal" reference/bar_musl.mpm "smal"
 compare "drda, mscl, dtfx" reference/bar_musl.mpm "drda mscl 25 dtfx 1e-7"
