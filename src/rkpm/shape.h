@@ -4,13 +4,11 @@
 #ifndef RKPM_SHAPE_H
 #define RKPM_SHAPE_H
 
+#include "deck/scene_rkpm.h"
 #include "rkpm/basis.h"
 #include "rkpm/search.h"
 
 #include <stdbool.h>
-
-enum basis_form { BASIS_LINEAR, BASIS_BILINEAR, BASIS_QUADRATIC };
-enum gradient_form { GRADIENT_NONE, GRADIENT_DIRECT, GRADIENT_IMPLICIT };
 
 /* The shape functions at one point that are not zero there. */
 struct shape_row {
