@@ -206,5 +206,8 @@ void reader_finish_rkpm(struct reader *reader)
     make_levels(reader);
     check_wave(reader);
     check_beta(reader);
+    const long *last = rkpm->levels[rkpm->n_levels - 1];
+    if (diagnostics_errors(reader->diagnostics) == 0)
+        scene->n_particles = last[0] * last[1] * last[2];
     scene->end_time = scene->output_interval = scene->report_interval = (double)rkpm->n_levels;
 }

@@ -102,10 +102,12 @@ struct rkpm *rkpm_open(const struct scene *scene, struct timers *timers)
     rkpm->boundary_gauss = or_default(words->boundary_gauss, 2);
     rkpm->norm_gauss = or_default(words->norm_gauss, words->problem == PROBLEM_HELMHOLTZ ? 5 : 2);
     rkpm->n_levels = words->n_levels;
+    timers_enter(timers, PHASE_SYSTEM);
     rkpm->levels = memory_array(rkpm->n_levels, sizeof *rkpm->levels, "problems");
     for (size_t i = 0; i < rkpm->n_levels; i++)
         open_level(rkpm, &rkpm->levels[i], words->levels[i]);
     create_store(rkpm);
+    timers_enter(timers, PHASE_OTHER);
     return rkpm;
 }
 

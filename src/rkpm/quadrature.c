@@ -34,29 +34,34 @@ void quadrature_rule(int n, double place[QUADRATURE_MOST], double weight[QUADRAT
     }
 }
 
-/* All points of one cell along the axes that `along` names. */
-static void visit_cell(const struct node_box *box, int n, const int *along, int axes, struct quadrature_point *point, quadrature_visit *visit,
-                       void *context)
-{
+/* Who is shown the points, and the rule that makes them along an axis. */
+struct visitor {
+    quadrature_visit *visit;
+    void *context;
+    int n;
     double place[QUADRATURE_MOST], weight[QUADRATURE_MOST];
+};
+
+/* All points of one cell along the axes that `along` names. */
+static void visit_cell(const struct node_box *box, const int *along, int axes, struct quadrature_point *point, const struct visitor *visitor)
+{
+    const int n = visitor->n;
     int points = 1;
-    quadrature_rule(n, place, weight);
     for (int i = 0; i < axes; i++)
         points *= n;
     for (int p = 0; p < points; p++) {
         point->weight = 1;
         for (int i = 0, rest = p; i < axes; i++, rest /= n) {
             const int a = along[i];
-            point->x[a] = box->low[a] + box->spacing[a] * ((double)point->cell[a] + 0.5 + 0.5 * place[rest % n]);
-            point->weight *= 0.5 * box->spacing[a] * weight[rest % n];
+            point->x[a] = box->low[a] + box->spacing[a] * ((double)point->cell[a] + 0.5 + 0.5 * visitor->place[rest % n]);
+            point->weight *= 0.5 * box->spacing[a] * visitor->weight[rest % n];
         }
-        visit(context, point);
+        visitor->visit(visitor->context, point);
     }
 }
 
 /* All cells along some axes; the point's cell along others is given. */
-static void visit_cells(const struct node_box *box, int n, const int *along, int axes, struct quadrature_point *point, quadrature_visit *visit,
-                        void *context)
+static void visit_cells(const struct node_box *box, const int *along, int axes, struct quadrature_point *point, const struct visitor *visitor)
 {
     long cells = 1;
     for (int i = 0; i < axes; i++)
@@ -67,19 +72,23 @@ static void visit_cells(const struct node_box *box, int n, const int *along, int
             point->cell[along[i]] = rest % (box->numbers[along[i]] - 1);
             rest /= box->numbers[along[i]] - 1;
         }
-        visit_cell(box, n, along, axes, point, visit, context);
+        visit_cell(box, along, axes, point, visitor);
     }
 }
 
 void quadrature_inside(const struct node_box *box, int n, quadrature_visit *visit, void *context)
 {
     static const int along[] = {0, 1, 2};
+    struct visitor visitor = {.visit = visit, .context = context, .n = n};
     struct quadrature_point point = {.side = 0};
-    visit_cells(box, n, along, box->dimension, &point, visit, context);
+    quadrature_rule(n, visitor.place, visitor.weight);
+    visit_cells(box, along, box->dimension, &point, &visitor);
 }
 
 void quadrature_faces(const struct node_box *box, int n, quadrature_visit *visit, void *context)
 {
+    struct visitor visitor = {.visit = visit, .context = context, .n = n};
+    quadrature_rule(n, visitor.place, visitor.weight);
     for (int axis = 0; axis < box->dimension; axis++)
         for (int side = -1; side <= 1; side += 2) {
             struct quadrature_point point = {.axis = axis, .side = side};
@@ -89,6 +98,6 @@ void quadrature_faces(const struct node_box *box, int n, quadrature_visit *visit
                     along[axes++] = a;
             point.cell[axis] = side < 0 ? 0 : box->numbers[axis] - 2;
             point.x[axis] = box->low[axis] + (side < 0 ? 0 : box->spacing[axis] * (double)(box->numbers[axis] - 1));
-            visit_cells(box, n, along, axes, &point, visit, context);
+            visit_cells(box, along, axes, &point, &visitor);
         }
 }

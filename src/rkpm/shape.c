@@ -63,6 +63,8 @@ static void take_node(struct rkpm_shape *shape, int32_t node, const double point
     double phi[3], slope[3], product = 1;
     for (int a = 0; a < shape->dimension; a++) {
         const double radius = shape->radius[a] * shape->row.reach, offset = point[a] - shape->x[a][node], z = fabs(offset) / radius;
+        if (z >= 1)
+            return;
         phi[a] = rkpm_kernel(z);
         slope[a] = copysign(rkpm_kernel_slope(z) / radius, offset * rkpm_kernel_slope(z));
         product *= phi[a];

@@ -19,7 +19,7 @@
 struct assembly {
     struct rkpm *rkpm;
     struct rkpm_level *level;
-    int32_t *first; /* while the structure is looked for: per unknown, the first one that it is coupled with */
+    int32_t *first; /* while the structure is looked for: per unknown, the first one that it is coupled with; then NULL */
 };
 
 static bool has_multipliers(const struct scene_rkpm *words)
@@ -70,41 +70,53 @@ static void number_unknowns(const struct rkpm *rkpm, struct rkpm_level *level)
 
 /* --- numbers of the matrix --- */
 
-/* A number in a row and column; where the structure is looked for, that there is one. */
-static void add(struct assembly *assembly, int32_t row, int32_t column, double value)
+/* Notes that the unknowns of a row, and one more where it is not negative, are coupled with each other. */
+static void couple(struct assembly *assembly, const struct shape_row *row, int32_t other)
 {
-    struct rkpm_system *system = &assembly->level->system;
-    if (assembly->first) {
-        const int32_t low = row < column ? row : column, high = row < column ? column : row;
-        assembly->first[high] = low < assembly->first[high] ? low : assembly->first[high];
-    } else if (!system->is_definite) {
-        *banded_at(&system->banded, (size_t)row, (size_t)column) += value;
-    } else if (column <= row) {
-        *envelope_at(&system->envelope, row, column) += value;
+    const int32_t *unknown = assembly->level->system.of_node;
+    int32_t low = other < 0 ? INT32_MAX : other;
+    for (int i = 0; i < row->count; i++)
+        low = unknown[row->node[i]] < low ? unknown[row->node[i]] : low;
+    for (int i = 0; i < row->count; i++) {
+        int32_t *first = &assembly->first[unknown[row->node[i]]];
+        *first = low < *first ? low : *first;
     }
+    if (other >= 0 && low < assembly->first[other])
+        assembly->first[other] = low;
 }
 
-static void add_right(struct assembly *assembly, int32_t row, double value)
+/* A number in a row and column, and in the column and row. */
+static void add(struct rkpm_system *system, int32_t row, int32_t column, double value)
 {
-    if (!assembly->first)
-        assembly->level->system.right[row] += value;
+    if (system->is_definite) {
+        *(row > column ? envelope_at(&system->envelope, row, column) : envelope_at(&system->envelope, column, row)) += value;
+        return;
+    }
+    *banded_at(&system->banded, (size_t)row, (size_t)column) += value;
+    if (row != column)
+        *banded_at(&system->banded, (size_t)column, (size_t)row) += value;
 }
 
 static void add_inside(void *context, const struct quadrature_point *point)
 {
     struct assembly *assembly = context;
     struct rkpm *rkpm = assembly->rkpm;
-    const int32_t *unknown = assembly->level->system.of_node;
-    const struct shape_row *row = rkpm_row(rkpm, assembly->level, point->x, rkpm->words->gradient);
+    struct rkpm_system *system = &assembly->level->system;
+    const struct shape_row *row = rkpm_row(rkpm, assembly->level, point->x, assembly->first ? GRADIENT_NONE : rkpm->words->gradient);
+    if (assembly->first) {
+        couple(assembly, row, -1);
+        return;
+    }
     const double k2 = wave_square(rkpm), w = point->weight;
     const double source = field_laplacian(&rkpm->field, point->x) + k2 * field_value(&rkpm->field, point->x);
     for (int i = 0; i < row->count; i++) {
-        add_right(assembly, unknown[row->node[i]], -w * row->value[i] * source);
-        for (int j = 0; j < row->count; j++) {
+        const int32_t unknown = system->of_node[row->node[i]];
+        system->right[unknown] -= w * row->value[i] * source;
+        for (int j = 0; j <= i; j++) {
             double stiffness = -k2 * row->value[i] * row->value[j];
             for (int a = 0; a < assembly->level->box.dimension; a++)
                 stiffness += row->gradient[a][i] * row->gradient[a][j];
-            add(assembly, unknown[row->node[i]], unknown[row->node[j]], w * stiffness);
+            add(system, unknown, system->of_node[row->node[j]], w * stiffness);
         }
     }
 }
@@ -116,15 +128,20 @@ static void add_face(void *context, const struct quadrature_point *point)
 {
     struct assembly *assembly = context;
     struct rkpm *rkpm = assembly->rkpm;
+    struct rkpm_system *system = &assembly->level->system;
     const bool is_nitsche = rkpm->words->constraint == CONSTRAINT_NITSCHE;
-    const int32_t *unknown = assembly->level->system.of_node;
-    const struct shape_row *row = rkpm_row(rkpm, assembly->level, point->x, rkpm->words->gradient);
+    const struct shape_row *row = rkpm_row(rkpm, assembly->level, point->x, assembly->first ? GRADIENT_NONE : rkpm->words->gradient);
+    if (assembly->first) {
+        couple(assembly, row, -1);
+        return;
+    }
     const double *slope = row->gradient[point->axis], sign = is_nitsche ? point->side : 0;
     const double beta = assembly->level->beta, w = point->weight, given = field_value(&rkpm->field, point->x);
     for (int i = 0; i < row->count; i++) {
-        add_right(assembly, unknown[row->node[i]], w * (beta * row->value[i] - sign * slope[i]) * given);
-        for (int j = 0; j < row->count; j++)
-            add(assembly, unknown[row->node[i]], unknown[row->node[j]],
+        const int32_t unknown = system->of_node[row->node[i]];
+        system->right[unknown] += w * (beta * row->value[i] - sign * slope[i]) * given;
+        for (int j = 0; j <= i; j++)
+            add(system, unknown, system->of_node[row->node[j]],
                 w * (beta * row->value[i] * row->value[j] - sign * (row->value[i] * slope[j] + slope[i] * row->value[j])));
     }
 }
@@ -132,15 +149,15 @@ static void add_face(void *context, const struct quadrature_point *point)
 /* A row of A and q: the multiplier of a node, times the shape functions of a point. */
 static void add_constraint(struct assembly *assembly, size_t node, double factor, const struct shape_row *row, double given)
 {
-    const struct rkpm_system *system = &assembly->level->system;
+    struct rkpm_system *system = &assembly->level->system;
     const int32_t multiplier = system->of_multiplier[node];
-    add(assembly, multiplier, multiplier, 0);
-    add_right(assembly, multiplier, factor * given);
-    for (int i = 0; i < row->count; i++) {
-        const int32_t unknown = system->of_node[row->node[i]];
-        add(assembly, multiplier, unknown, factor * row->value[i]);
-        add(assembly, unknown, multiplier, factor * row->value[i]);
+    if (assembly->first) {
+        couple(assembly, row, multiplier);
+        return;
     }
+    system->right[multiplier] += factor * given;
+    for (int i = 0; i < row->count; i++)
+        add(system, multiplier, system->of_node[row->node[i]], factor * row->value[i]);
 }
 
 /* The hats of the corners of the segment that a point lies on. */
