@@ -14,7 +14,8 @@ struct checkpoint;
 
 struct method {
     const char *name; /* in decks, after `meth` */
-    /* Builds the solver of run->scene in run->mpm or run->sph, and what output sees of it: run->store, run->source.
+    bool is_static;   /* nothing moves: there are no energies, momenta and curves */
+    /* Builds the solver of run->scene in run->mpm, run->sph or run->rkpm, and what output sees of it: run->store, run->source.
      * Mistakes that only show now go to run->diagnostics. */
     void (*open)(struct run *run);
     void (*close)(struct run *run);
@@ -31,6 +32,9 @@ struct method {
     int32_t (*lost_particle)(const struct run *run, int32_t n);
     /* The whole state between two steps, to or from a checkpoint. */
     void (*exchange)(struct run *run, struct checkpoint *checkpoint);
+    /* Begins run->errors, and writes the line of the last step; false, after a message, on failure. NULL: there is no such table. */
+    void (*start_errors)(struct run *run);
+    bool (*write_errors)(struct run *run);
     /* Particles, grid, first step (also for --check); with columns and memory; why it was stopped; the end. */
     void (*print_scene)(const struct run *run, FILE *stream);
     void (*print_start)(const struct run *run, FILE *stream);
@@ -42,7 +46,7 @@ struct method {
     double (*updates)(const struct run *run);
 };
 
-extern const struct method method_mpm, method_sph;
+extern const struct method method_mpm, method_sph, method_rkpm;
 
 /* The row of a scene's method. */
 const struct method *method_of(enum method_name name);

@@ -103,7 +103,9 @@ static enum status open_log(struct run *run)
 static bool open_tables(struct run *run)
 {
     const struct scene *scene = run->scene;
-    bool good = open_log(run) == STATUS_FINISHED && history_open(&run->history, scene, run->options.folder, mode_of(run))
+    bool good = open_log(run) == STATUS_FINISHED
+             && (run->method->is_static || history_open(&run->history, scene, run->options.folder, mode_of(run)))
+             && (!run->method->write_errors || open_table(run, &run->errors, "_error.dat"))
              && (!scene->writes_animation || open_table(run, &run->animation, "_anim.dat"))
              && (!scene->writes_lost || open_table(run, &run->lost, "_lost.dat"));
     if (good && scene->writes_animation)
@@ -133,9 +135,9 @@ static void mark_shown(struct run *run)
                                 store->real[COLUMN_POSITION][2]};
     if (run->dumps == 0)
         for (size_t p = 0; p < store->count; p++) {
-            const struct scene_body *body = &run->scene->bodies[store->integer[COLUMN_BODY][p]];
+            const struct scene_body *body = run->scene->n_bodies > 0 ? &run->scene->bodies[store->integer[COLUMN_BODY][p]] : NULL;
             bool is_in = true;
-            for (int a = 0; a < 3 && body->has_plot_box; a++)
+            for (int a = 0; a < 3 && body && body->has_plot_box; a++)
                 is_in = is_in && x[a][p] >= body->plot_box[2 * a] && x[a][p] <= body->plot_box[2 * a + 1];
             run->is_shown[store->integer[COLUMN_ID][p]] = is_in;
         }
@@ -153,7 +155,7 @@ static enum status write_dump(struct run *run)
         good = vtk_write(&run->vtk, run->scene, &run->source, run->course.time) && good;
     run->dumps++;
     fprintf(run->log, "Write output data at time %.6E\n", run->course.time);
-    good = history_flush(&run->history) && good;
+    good = (run->method->is_static || history_flush(&run->history)) && good;
     if (fflush(run->log) != 0) {
         status_error("cannot write '%s': %s", run->log_path, strerror(errno));
         good = false;
@@ -199,6 +201,8 @@ static enum status start_output(struct run *run)
         fprintf(run->lost.stream, "VARIABLES = \"Time\" \"id\" \"X\" \"Y\" \"Z\" \"velx\" \"vely\" \"velz\"\n");
         write_lost(run);
     }
+    if (run->method->start_errors)
+        run->method->start_errors(run);
     fprintf(run->log, "! mpm3d %s: the deck as understood; it can be run again\n", VERSION);
     echo_scene(scene, run->log, scene->n_particles <= 20000);
     run->method->print_start(run, run->log);
@@ -260,10 +264,13 @@ static enum status write_step(struct run *run)
 {
     const double time = run->course.time;
     enum status status = STATUS_FINISHED;
-    history_step(&run->history, run->scene, &run->source, &run->totals);
+    if (run->method->write_errors && !run->method->write_errors(run))
+        return STATUS_FILE;
+    if (!run->method->is_static)
+        history_step(&run->history, run->scene, &run->source, &run->totals);
     if (run->scene->writes_lost)
         write_lost(run);
-    if (time >= (double)run->next_report) {
+    if (time >= (double)run->next_report && !run->method->is_static) {
         run->next_report = (float)((double)run->next_report + run->scene->report_interval);
         write_report_line(run);
     }
@@ -325,6 +332,8 @@ static bool close_output(struct run *run)
         good = table_close(&run->animation);
     if (run->lost.path)
         good = table_close(&run->lost) && good;
+    if (run->errors.path)
+        good = table_close(&run->errors) && good;
     good = history_close(&run->history) && good;
     if (run->log && (ferror(run->log) | fclose(run->log)) != 0) {
         status_error("cannot write '%s': %s", run->log_path, strerror(errno));

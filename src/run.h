@@ -33,6 +33,7 @@ struct run_course {
 
 struct mpm;
 struct sph;
+struct rkpm;
 
 enum { RUN_TABLES = 7 };
 
@@ -45,6 +46,7 @@ struct run {
     const struct method *method;
     struct mpm *mpm; /* one of the solvers */
     struct sph *sph;
+    struct rkpm *rkpm;
     struct store *store; /* its particles */
     struct run_course course;
     struct history_totals totals;
@@ -53,6 +55,7 @@ struct run {
     char *log_path;
     struct table animation;
     struct table lost; /* particles that left the grid, on request */
+    struct table errors; /* against an exact solution, of methods that have them */
     int32_t known_lost;
     int32_t lost_before_step;
     struct history history;

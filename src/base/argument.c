@@ -26,6 +26,8 @@ static const struct limit limits[LIMIT_ROWS] = {
     [LIMIT_BELOW_ONE] = {"between -1 and 1", -1, 1, true, true},
     [LIMIT_FLAG] = {"0 or 1", 0, 1, false, false},
     [LIMIT_DIMENSION] = {"2 or 3", 2, 3, false, false},
+    [LIMIT_AXES] = {"1, 2 or 3", 1, 3, false, false},
+    [LIMIT_GAUSS] = {"from 1 to 10", 1, 10, false, false},
 };
 
 int argument_count(const struct argument *arguments)

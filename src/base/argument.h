@@ -27,6 +27,8 @@ enum argument_limit {
     LIMIT_BELOW_ONE,     /* -1 < a < 1 */
     LIMIT_FLAG,          /* 0, 1 */
     LIMIT_DIMENSION,     /* 2, 3 */
+    LIMIT_AXES,          /* 1, 2, 3 */
+    LIMIT_GAUSS,         /* 1 ... 10 */
     LIMIT_ROWS
 };
 

@@ -3,15 +3,28 @@
 #ifndef BASE_METHODS_H
 #define BASE_METHODS_H
 
-enum method_name { METHOD_MPM, METHOD_SPH };
+#include <stddef.h>
+
+enum method_name { METHOD_MPM, METHOD_SPH, METHOD_RKPM, METHOD_COUNT };
 
 /* In a row's column `methods`; 0: all of them. */
-enum { METHODS_MPM = 1 << METHOD_MPM, METHODS_SPH = 1 << METHOD_SPH };
+enum {
+    METHODS_MPM = 1 << METHOD_MPM,
+    METHODS_SPH = 1 << METHOD_SPH,
+    METHODS_RKPM = 1 << METHOD_RKPM,
+    METHODS_PARTICLES = METHODS_MPM | METHODS_SPH /* those that move bodies of particles in time */
+};
 
 /* Whether a row with this mask has a meaning in a scene of the method. */
 static inline int methods_include(unsigned methods, enum method_name method)
 {
     return methods == 0 || (methods >> method & 1);
 }
+
+/* Puts the names of the methods of a mask into a text, with `before` and `after` each and `between` them. */
+void methods_text(unsigned methods, const char *before, const char *after, const char *between, char *text, size_t size);
+
+/* The name of a method in decks. */
+const char *methods_name(enum method_name method);
 
 #endif

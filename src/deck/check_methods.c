@@ -17,18 +17,19 @@ void reader_use(struct reader *reader, const char *kind, const char *name, unsig
 
 bool reader_check_methods(struct reader *reader)
 {
-    const enum method_name method = reader->scene->method, other = method == METHOD_MPM ? METHOD_SPH : METHOD_MPM;
-    static const char *const names[] = {[METHOD_MPM] = "mpm", [METHOD_SPH] = "sph"};
+    const enum method_name method = reader->scene->method;
     for (size_t i = 0; i < reader->n_uses; i++) {
         const struct reader_use *use = &reader->uses[i];
+        char expected[80];
         if (methods_include(use->methods, method))
             continue;
+        methods_text(use->methods, "'meth ", "'", " or ", expected, sizeof expected);
         if (reader->method_place.line == 0) {
-            diagnostics_error(reader->diagnostics, use->place, "%s'%s' needs 'meth %s'", use->kind, use->name, names[other]);
+            diagnostics_error(reader->diagnostics, use->place, "%s'%s' needs %s", use->kind, use->name, expected);
             return false;
         }
-        diagnostics_error(reader->diagnostics, use->place, "%s'%s' goes only with 'meth %s'; this deck has 'meth %s'", use->kind,
-                          use->name, names[other], names[method]);
+        diagnostics_error(reader->diagnostics, use->place, "%s'%s' goes only with %s; this deck has 'meth %s'", use->kind, use->name,
+                          expected, methods_name(method));
     }
     return true;
 }

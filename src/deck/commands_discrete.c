@@ -285,12 +285,12 @@ static void read_plot_box(struct reader *reader, const struct deck_word *word, c
 #define LENGTH(name) {name, "length", ARGUMENT_REAL, LIMIT_NONE}
 
 const struct keyword discrete_keywords[] = {
-    {.name = "part", .long_name = "particle",
+    {.name = "part", .methods = METHODS_PARTICLES, .long_name = "particle",
      .arguments = (const struct argument[]){{"generator", NULL, ARGUMENT_WORD, LIMIT_NONE},
                                             {"component", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
      .apply = read_part, .fail = fail_part, .doc = "a body: its generator, component and numbers; after nbbo, nbmp, mate",
      .details = "part generator component\n  arguments of the generator\nThe generators:"},
-    {.name = "pt2d",
+    {.name = "pt2d", .methods = METHODS_PARTICLES,
      .arguments = (const struct argument[]){LENGTH("x0"), LENGTH("x1"), LENGTH("y0"), LENGTH("y1"), LENGTH("z0"),
                                             LENGTH("z1"), {0}},
      .apply = read_plot_box,

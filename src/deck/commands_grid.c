@@ -41,15 +41,15 @@ static void read_span_z(struct reader *reader, const struct deck_word *word, con
 }
 
 const struct keyword grid_keywords[] = {
-    {.name = "grid",
+    {.name = "grid", .methods = METHODS_PARTICLES,
      .arguments = (const struct argument[]){LENGTH("x0"), LENGTH("x1"), LENGTH("y0"), LENGTH("y1"), LENGTH("z0"),
                                             LENGTH("z1"), {0}},
      .field = offsetof(struct scene, grid), .apply = read_grid, .doc = "extents of the grid; with meth sph of the room for particles"},
-    {.name = "spx", .arguments = (const struct argument[]){LENGTH("x0"), LENGTH("x1"), {0}},
+    {.name = "spx", .methods = METHODS_PARTICLES, .arguments = (const struct argument[]){LENGTH("x0"), LENGTH("x1"), {0}},
      .field = offsetof(struct scene, grid), .apply = read_span_x, .doc = "extent of the grid along x"},
-    {.name = "spy", .arguments = (const struct argument[]){LENGTH("y0"), LENGTH("y1"), {0}},
+    {.name = "spy", .methods = METHODS_PARTICLES, .arguments = (const struct argument[]){LENGTH("y0"), LENGTH("y1"), {0}},
      .field = offsetof(struct scene, grid[2]), .apply = read_span_y, .doc = "extent of the grid along y"},
-    {.name = "spz", .arguments = (const struct argument[]){LENGTH("z0"), LENGTH("z1"), {0}},
+    {.name = "spz", .methods = METHODS_PARTICLES, .arguments = (const struct argument[]){LENGTH("z0"), LENGTH("z1"), {0}},
      .field = offsetof(struct scene, grid[4]), .apply = read_span_z, .doc = "extent of the grid along z"},
     {.name = "dcel", .methods = METHODS_MPM, .long_name = "dcell",
      .arguments = (const struct argument[]){{"size", "length", ARGUMENT_REAL, LIMIT_POSITIVE}, {0}},

@@ -194,10 +194,10 @@ static void read_velocities(struct reader *reader, const struct deck_word *word,
 }
 
 const struct keyword loading_keywords[] = {
-    {.name = "load", .apply = read_loads, .doc = "block of forces, gravity and tractions, up to endl",
+    {.name = "load", .methods = METHODS_PARTICLES, .apply = read_loads, .doc = "block of forces, gravity and tractions, up to endl",
      .details = "load\n  kind target x y z ...\nendl\nA later line for the same target replaces an earlier one; "
                 "tractions add up. The kinds:"},
-    {.name = "velo", .apply = read_velocities, .doc = "block of initial velocities, up to endv",
+    {.name = "velo", .methods = METHODS_PARTICLES, .apply = read_velocities, .doc = "block of initial velocities, up to endv",
      .details = "velo\n  kind target vx vy vz ...\nendv\nThe kinds:"},
     {.name = "QuLo", .methods = METHODS_MPM, .arguments = (const struct argument[]){{"time", "time", ARGUMENT_REAL, LIMIT_POSITIVE}, {0}},
      .field = offsetof(struct scene, loading_time),

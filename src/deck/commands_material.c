@@ -286,7 +286,7 @@ static void read_detonation(struct reader *reader, const struct deck_word *word,
 }
 
 const struct keyword material_keywords[] = {
-    {.name = "mate", .long_name = "material", .apply = read_materials,
+    {.name = "mate", .methods = METHODS_PARTICLES, .long_name = "material", .apply = read_materials,
      .doc = "materials: id, law and its parameters, up to the highest id",
      .details = "mate\n  id law parameters...\nThe last id has to be nmat. The laws:"},
     {.name = "seos", .methods = METHODS_MPM,

@@ -187,26 +187,26 @@ static void read_restart(struct reader *reader, const struct deck_word *word, co
 #define LENGTH(name) {name, "length", ARGUMENT_REAL, LIMIT_NONE}
 
 const struct keyword output_keywords[] = {
-    {.name = "outt", .long_name = "outtime", .arguments = INTERVAL, .field = offsetof(struct scene, output_interval),
+    {.name = "outt", .methods = METHODS_PARTICLES, .long_name = "outtime", .arguments = INTERVAL, .field = offsetof(struct scene, output_interval),
      .apply = read_output_interval, .doc = "interval of the animation output; after endt, which sets it too"},
-    {.name = "rptt", .long_name = "rpttime", .arguments = INTERVAL, .field = offsetof(struct scene, report_interval),
+    {.name = "rptt", .methods = METHODS_PARTICLES, .long_name = "rpttime", .arguments = INTERVAL, .field = offsetof(struct scene, report_interval),
      .doc = "interval of the report lines; 0 is every step"},
     {.name = "tecp", .long_name = "tecplot", .apply = read_tecplot, .doc = "write the animation file job_anim.dat"},
     {.name = "outr", .arguments = (const struct argument[]){RESULT, {0}}, .apply = read_result,
      .doc = "adds a result to the animation file", .details = "outr result\nThe results:"},
-    {.name = "curv", .long_name = "curve", .arguments = (const struct argument[]){RESULT, {0}}, .apply = read_curve,
+    {.name = "curv", .methods = METHODS_PARTICLES, .long_name = "curve", .arguments = (const struct argument[]){RESULT, {0}}, .apply = read_curve,
      .doc = "adds a curve: a result of one particle (default 1), written every step",
      .details = "curv result [particle]     (the id on the same line)\nThe results:"},
-    {.name = "curx", .arguments = (const struct argument[]){RESULT, LENGTH("x"), LENGTH("y"), LENGTH("z"), {0}},
+    {.name = "curx", .methods = METHODS_PARTICLES, .arguments = (const struct argument[]){RESULT, LENGTH("x"), LENGTH("y"), LENGTH("z"), {0}},
      .apply = read_near_curve, .doc = "adds a curve of the particle within a quarter cell of a point, with meth sph of the nearest one within half a "
             "spacing; after meth and all part"},
-    {.name = "name", .long_name = "names",
+    {.name = "name", .methods = METHODS_PARTICLES, .long_name = "names",
      .arguments = (const struct argument[]){{"job|mpm3d", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}}, .apply = read_names,
      .doc = "names of the energy and momentum files: job_energy.dat, or EnergyPlot.dat as in MPM3D-F90"},
     {.name = "head", .long_name = "header",
      .arguments = (const struct argument[]){{"tecplot|mpm3d", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}},
      .apply = read_headers, .doc = "headers of the tables: Tecplot's, or the bare ones of MPM3D-F90"},
-    {.name = "zone", .arguments = (const struct argument[]){{"all|body", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}},
+    {.name = "zone", .methods = METHODS_PARTICLES, .arguments = (const struct argument[]){{"all|body", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}},
      .apply = read_zones, .doc = "zones of the animation file: one of all particles (default), or one for each body"},
     {.name = "digi", .long_name = "digits",
      .arguments = (const struct argument[]){{"digits", NULL, ARGUMENT_INTEGER, LIMIT_DIGITS}, {0}},
@@ -214,7 +214,7 @@ const struct keyword output_keywords[] = {
     {.name = "smoo", .methods = METHODS_MPM, .apply = read_smoothing, .doc = "adds a smoothed pressure to the ParaView files"},
     {.name = "para", .long_name = "paraview", .apply = read_paraview,
      .doc = "write ParaView files job_anim_N.vtu and job_anim.pvd; `para ascii` or `para binary` (by size). With meth sph the results of outr stand in them too"},
-    {.name = "rest", .long_name = "restart", .apply = read_restart,
+    {.name = "rest", .methods = METHODS_PARTICLES, .long_name = "restart", .apply = read_restart,
      .doc = "`rest every n steps` or `rest every t time`: then, and at the end, writes a checkpoint job.rest to go on "
             "from with mpm3d --restart job.rest job.mpm",
      .details = "rest every n steps\nrest every t time\nThe one before is kept as job.rest.old. A run that is interrupted by "

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Solving settings: time, schemes, stress rotation, viscosity, damping. */
+#include "deck/commands_rkpm.h"
 #include "deck/commands_sph.h"
 
 #include <stddef.h>
@@ -252,18 +253,24 @@ static void fail_method(struct reader *reader, const struct deck_word *word)
 }
 
 _Static_assert(sizeof(enum method_name) == sizeof(int), "choices are stored as int");
-static const char *const method_names[] = {[METHOD_MPM] = "mpm", [METHOD_SPH] = "sph", NULL};
+static const char *const method_names[] = {[METHOD_MPM] = "mpm", [METHOD_SPH] = "sph", [METHOD_RKPM] = "rkpm", NULL};
 
 const struct keyword solving_keywords[] = {
     {.name = "meth", .long_name = "method",
-     .arguments = (const struct argument[]){{"mpm|sph", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}},
+     .arguments = (const struct argument[]){{"mpm|sph|rkpm", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}},
      .choice = &(const struct keyword_choice){method_names, offsetof(struct scene, method), false}, .apply = note_method, .fail = fail_method,
-     .doc = "material points on a grid (mpm, default), or smoothed particles that melt and flow (sph, see there)"},
+     .doc = "material points on a grid (mpm, default), smoothed particles that melt and flow (sph, see there), or reproducing kernel "
+            "particles (rkpm, see there)"},
     {.name = "sph", .methods = METHODS_SPH, .apply = reader_sph, .once = true,
      .doc = "block of what smoothed particles need, up to ends",
      .details = "sph\n  word numbers ...\nends\nMaterials are `flui`, with `prop`; gravity is in load. Temperatures in kelvin, as radiation "
                 "and evaporation need them. The words:"},
-    {.name = "endt", .long_name = "endtime",
+    {.name = "rkpm", .methods = METHODS_RKPM, .apply = reader_rkpm, .once = true,
+     .doc = "block of what reproducing kernel particles need, up to ends",
+     .details = "rkpm\n  word numbers ...\nends\nThe block says all: there are no materials, bodies or steps in time. A problem counts 1 in "
+                "time. job_error.dat has a line for each:\nnumbers of nodes n and of those along x, spacing h along x, L2 norm of the error, "
+                "that of its gradient too (H1), rates between problems. The words:"},
+    {.name = "endt", .methods = METHODS_PARTICLES, .long_name = "endtime",
      .arguments = (const struct argument[]){{"time", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
      .field = offsetof(struct scene, end_time), .apply = read_end_time,
      .doc = "end time; sets the output interval too, so outt has to follow it"},
@@ -291,9 +298,9 @@ const struct keyword solving_keywords[] = {
     {.name = "mscl", .methods = METHODS_MPM, .arguments = (const struct argument[]){{"factor", NULL, ARGUMENT_REAL, LIMIT_POSITIVE}, {0}},
      .field = offsetof(struct scene, mass_scale), .apply = note_mass_scale,
      .doc = "all masses times a factor, for larger steps where inertia does not matter; weight stays (1)"},
-    {.name = "dtfx", .arguments = (const struct argument[]){{"step", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
+    {.name = "dtfx", .methods = METHODS_PARTICLES, .arguments = (const struct argument[]){{"step", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
      .field = offsetof(struct scene, fixed_step), .apply = note_fixed_step, .doc = "fixed time step in place of dtsc, checked against the stable one; 0: none"},
-    {.name = "dtmi", .arguments = (const struct argument[]){{"step", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
+    {.name = "dtmi", .methods = METHODS_PARTICLES, .arguments = (const struct argument[]){{"step", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
      .field = offsetof(struct scene, least_step),
      .doc = "the run is stopped as unstable when its time step falls below this one; 0: a millionth of the first one"},
     {.name = "lite", .methods = METHODS_MPM, .arguments = (const struct argument[]){{"share", NULL, ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
@@ -319,13 +326,13 @@ const struct keyword solving_keywords[] = {
             "(apic), or `xfer blend a` for a flip + (1 - a) pic"},
     {.name = "bbar", .methods = METHODS_MPM, .apply = read_averaging,
      .doc = "volume change and pressure averaged over the cell, against volumetric locking of linear shapes"},
-    {.name = "lost",
+    {.name = "lost", .methods = METHODS_PARTICLES,
      .arguments = (const struct argument[]){{"keep|drop|stop", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}},
      .apply = read_lost,
      .doc = "particles that leave the grid: frozen and counted in sums (keep, default), left out (drop), or the end of "
             "the run (stop); with `write` behind it they are listed in job_lost.dat. With meth sph they are left out, also "
             "with keep"},
-    {.name = "sort", .arguments = SWITCH, .apply = read_sorting,
+    {.name = "sort", .methods = METHODS_PARTICLES, .arguments = SWITCH, .apply = read_sorting,
      .doc = "keep particles in cell order in memory (on); changes speed, never results"},
     {.name = "gimp", .methods = METHODS_MPM, .apply = read_gimp,
      .doc = "generalised interpolation; particles half a cell wide, or with `gimp cp` as wide as they are"},

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "deck/echo.h"
+#include "deck/echo_rkpm.h"
 #include "deck/echo_sph.h"
 #include "deck/keyword.h"
 #include "material/eos.h"
@@ -104,6 +105,8 @@ static void echo_scheme(const struct scene *scene, FILE *stream)
 static void echo_solving(const struct scene *scene, FILE *stream)
 {
     echo_plain(scene, stream, CATEGORY_SOLVING);
+    if (scene->method == METHOD_RKPM)
+        return;
     if (scene->method == METHOD_MPM)
         echo_scheme(scene, stream);
     fprintf(stream, "sort %s%s\n", scene->sorts ? "on" : "off",
@@ -313,7 +316,9 @@ static void echo_velocities(const struct scene *scene, FILE *stream, bool whole)
 static void echo_output(const struct scene *scene, FILE *stream)
 {
     echo_plain(scene, stream, CATEGORY_OUTPUT);
-    fprintf(stream, "name %s\nhead %s\n", scene->bare_names ? "mpm3d" : "job", scene->bare_headers ? "mpm3d" : "tecplot");
+    if (scene->method != METHOD_RKPM)
+        fprintf(stream, "name %s\n", scene->bare_names ? "mpm3d" : "job");
+    fprintf(stream, "head %s\n", scene->bare_headers ? "mpm3d" : "tecplot");
     if (scene->writes_animation)
         fprintf(stream, "tecp\n");
     if (scene->zones_by_body)
@@ -415,6 +420,12 @@ void echo_scene(const struct scene *scene, FILE *stream, bool whole)
     echo_plain(scene, stream, CATEGORY_GRID);
     echo_holds(scene, stream);
     echo_solving(scene, stream);
+    if (scene->method == METHOD_RKPM) {
+        echo_rkpm(scene, stream);
+        echo_output(scene, stream);
+        fprintf(stream, "endi\n");
+        return;
+    }
     echo_materials(scene, stream);
     echo_bodies(scene, stream, whole);
     echo_building(scene, stream);

@@ -45,14 +45,23 @@ static void print_law_order(FILE *stream, const struct law *law)
 }
 
 /* What the doc of a row ends with that not all methods have. */
-static const char *method_note(unsigned methods)
+struct note {
+    char text[40];
+};
+
+static struct note note_of(unsigned methods)
 {
-    return methods == METHODS_MPM ? " [mpm]" : methods == METHODS_SPH ? " [sph]" : "";
+    struct note note = {""};
+    char names[30];
+    methods_text(methods, "", "", ", ", names, sizeof names);
+    if (methods != 0)
+        snprintf(note.text, sizeof note.text, " [%s]", names);
+    return note;
 }
 
 static void print_line(FILE *stream, const char *name, const char *doc, const char *later, unsigned methods)
 {
-    fprintf(stream, "  %-5s %s%s%s\n", name, doc, method_note(methods), later ? " (not in this version)" : "");
+    fprintf(stream, "  %-5s %s%s%s\n", name, doc, note_of(methods).text, later ? " (not in this version)" : "");
 }
 
 void help_words(FILE *stream)
@@ -62,7 +71,7 @@ void help_words(FILE *stream)
         for (const struct keyword *row = keyword_table((enum category)c); row->name; row++)
             print_line(stream, row->name, row->doc, row->later, row->methods);
     }
-    fprintf(stream, "\n[mpm] and [sph] are words of that `meth` alone. mpm3d --help WORD tells more of a word, law, generator or result.\n");
+    fprintf(stream, "\n[mpm], [sph] and [rkpm] are words of those `meth` alone. mpm3d --help WORD tells more of a word, law, generator or result.\n");
 }
 
 static void print_laws(FILE *stream)
@@ -167,6 +176,8 @@ static void print_below(FILE *stream, const char *name)
         print_table(stream, ghost_keywords);
     else if (strcmp(name, "sph") == 0)
         print_table(stream, sph_keywords);
+    else if (strcmp(name, "rkpm") == 0)
+        print_table(stream, rkpm_keywords);
     else if (strcmp(name, "prop") == 0)
         print_properties(stream);
     else if (strcmp(name, "outr") == 0 || strcmp(name, "curv") == 0)
@@ -176,15 +187,17 @@ static void print_below(FILE *stream, const char *name)
 static bool help_keyword(const char *word, FILE *stream)
 {
     enum category category;
+    char names[60];
     const struct keyword *row = keyword_find(word, &category);
     if (!row)
         return false;
+    methods_text(row->methods, " meth ", "", " or", names, sizeof names);
     fprintf(stream, "%s", row->name);
     print_arguments(stream, row->arguments);
     fprintf(stream, "\n    %s%s\n    category: %s\n", row->doc, row->later ? " (not in this version)" : "",
             keyword_category_title(category));
     if (row->methods)
-        fprintf(stream, "    only with meth %s\n", row->methods == METHODS_MPM ? "mpm" : "sph");
+        fprintf(stream, "    only with%s\n", names);
     print_argument_table(stream, row->arguments);
     if (row->details)
         fprintf(stream, "%s\n", row->details);
@@ -200,7 +213,7 @@ static bool help_other(const char *word, FILE *stream)
     if (law) {
         fprintf(stream, "law %s", law->name);
         print_law_order(stream, law);
-        fprintf(stream, "    %s%s%s\n", law->doc, method_note(law->methods), law->later ? " (not in this version)" : "");
+        fprintf(stream, "    %s%s%s\n", law->doc, note_of(law->methods).text, law->later ? " (not in this version)" : "");
         print_argument_table(stream, law->parameters);
         print_argument_table(stream, law->element);
     }
@@ -214,7 +227,7 @@ static bool help_other(const char *word, FILE *stream)
     }
     if (result)
         fprintf(stream, "result %s\n    %s%s%s%s%s\n", result->name, result->doc, result->unit ? ", " : "",
-                result->unit ? result->unit : "", method_note(methods_of_result(result)), result->later ? " (not in this version)" : "");
+                result->unit ? result->unit : "", note_of(methods_of_result(result)).text, result->later ? " (not in this version)" : "");
     return law || generator || result;
 }
 
@@ -254,7 +267,7 @@ static void manual_row_begin(FILE *stream, const char *name, const char *doc, co
     fprintf(stream, "| `%s` | ", name);
     for (const char *c = doc; *c; c++) /* a bar in a text would end its column */
         fprintf(stream, *c == '|' ? "\\|" : "%c", *c);
-    fprintf(stream, "%s%s | ", method_note(methods), later ? " (not in this version)" : "");
+    fprintf(stream, "%s%s | ", note_of(methods).text, later ? " (not in this version)" : "");
 }
 
 static void manual_row(FILE *stream, const char *name, const char *doc, const struct argument *arguments, const char *later,
@@ -303,13 +316,14 @@ void help_manual(FILE *stream)
     fprintf(stream, "# The words of a deck\n\nWritten by `make manual` from the program's own tables; `mpm3d --help WORD` "
                     "shows the same.\nFour letters count, in any case; numbers may be written 1, .5, +1, 1.0d-3; words are "
                     "separated by blanks or one comma; `!` starts a comment.\n"
-                    "[mpm] and [sph] are words of that `meth` alone.\n");
+                    "[mpm], [sph] and [rkpm] are words of those `meth` alone.\n");
     for (int c = 0; c < CATEGORY_COUNT; c++)
         manual_keywords(stream, keyword_category_title((enum category)c), keyword_table((enum category)c));
     manual_keywords(stream, "Kinds of load", load_keywords);
     manual_keywords(stream, "Kinds of velo", velocity_keywords);
     manual_keywords(stream, "Words of Ghost", ghost_keywords);
     manual_keywords(stream, "Words of sph, up to ends", sph_keywords);
+    manual_keywords(stream, "Words of rkpm, up to ends", rkpm_keywords);
     manual_properties(stream);
     manual_head(stream, "Laws of mate");
     for (const struct law *const *law = law_rows(); *law; law++)
@@ -334,6 +348,6 @@ void help_manual(FILE *stream)
     fprintf(stream, "\n### Results of outr, curv, curx\n\n| word | what | unit |\n|---|---|---|\n");
     const struct result *results = result_rows(&count);
     for (int i = 0; i < count; i++)
-        fprintf(stream, "| `%s` | %s%s%s | %s |\n", results[i].name, results[i].doc, method_note(methods_of_result(&results[i])),
+        fprintf(stream, "| `%s` | %s%s%s | %s |\n", results[i].name, results[i].doc, note_of(methods_of_result(&results[i])).text,
                 results[i].later ? " (not in this version)" : "", results[i].unit ? results[i].unit : "");
 }

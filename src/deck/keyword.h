@@ -71,6 +71,9 @@ extern const struct keyword solid_keywords[], surface_keywords[];
 /* The block of sph, and what prop may say of a material beside tables. */
 extern const struct keyword sph_keywords[], property_keywords[];
 
+/* The block of rkpm. */
+extern const struct keyword rkpm_keywords[];
+
 /* The row in `table` whose first four characters agree with a NUL-ended word, or NULL. */
 const struct keyword *keyword_in(const struct keyword *table, const char *word);
 

@@ -129,7 +129,7 @@ bool reader_word(struct reader *reader, struct deck_word *word, const char *what
 /* The block that a word ends, or NULL. */
 static const char *block_of_end(const char *word)
 {
-    static const char *const ends[][2] = {{"endl", "load"}, {"endv", "velo"}, {"endp", "part solid"}, {"endg", "Ghost"}, {"ends", "sph"}};
+    static const char *const ends[][2] = {{"endl", "load"}, {"endv", "velo"}, {"endp", "part solid"}, {"endg", "Ghost"}, {"ends", "sph' or 'rkpm"}};
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++)
         if (strncasecmp(word, ends[i][0], 4) == 0)
             return ends[i][1];
@@ -142,7 +142,7 @@ bool reader_is_keyword(const struct deck_word *word)
     text_copy(word, text, sizeof text);
     return keyword_find(text, NULL) || keyword_in(load_keywords, text) || keyword_in(velocity_keywords, text)
         || keyword_in(solid_keywords, text) || keyword_in(ghost_keywords, text)
-        || keyword_in(sph_keywords, text) || block_of_end(text);
+        || keyword_in(sph_keywords, text) || keyword_in(rkpm_keywords, text) || block_of_end(text);
 }
 
 bool reader_has_more(struct reader *reader)
@@ -536,6 +536,8 @@ void reader_block(struct reader *reader, const struct keyword *table, const char
         take(reader, &word);
         if (row && table == sph_keywords)
             reader->sph_places[row - sph_keywords] = word.place;
+        if (row && table == rkpm_keywords)
+            reader->rkpm_places[row - rkpm_keywords] = word.place;
         if (strncasecmp(text, end, 4) == 0)
             is_closed = true;
         else if (row)
@@ -606,6 +608,10 @@ static void finish(struct reader *reader)
     }
     if (!reader_check_methods(reader))
         return;
+    if (reader->scene->method == METHOD_RKPM) {
+        reader_finish_rkpm(reader);
+        return;
+    }
     reader_finish_grid(reader, end);
     reader_finish_materials(reader);
     reader_finish_targets(reader);

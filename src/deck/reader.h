@@ -13,7 +13,7 @@ enum { READER_DEPTH = 4 }; /* of blocks in blocks, which only wrong decks have *
 
 struct solid;
 
-enum { READER_WORDS = 64 }; /* of the block sph, at most */
+enum { READER_WORDS = 64 }; /* of the blocks sph and rkpm, at most */
 
 /* A word or result that not all methods have, where it first stands. */
 struct reader_use {
@@ -40,7 +40,7 @@ struct reader {
     bool is_cut;                   /* the deck ended inside a command: what else is missing is no news */
     bool is_partial;               /* a line or file was not understood: what seems missing may be there */
     bool in_materials;             /* a number before the name of a law is the next material's id */
-    bool has_bad_material, has_bad_part, has_bad_sph;
+    bool has_bad_material, has_bad_part, has_bad_sph, has_bad_rkpm;
     bool has_scheme;               /* some scheme was switched on at some place */
     bool scheme_is_on[3];          /* by enum scheme */
     bool has_output_interval;
@@ -49,7 +49,7 @@ struct reader {
     double plot_box[6];
     struct reader_use *uses;
     size_t n_uses, uses_capacity;
-    struct deck_place method_place, sph_places[READER_WORDS]; /* by row of sph_keywords; line 0: not given */
+    struct deck_place method_place, sph_places[READER_WORDS], rkpm_places[READER_WORDS]; /* by row of sph_keywords and rkpm_keywords; line 0: not given */
     uint64_t missing[CATEGORY_COUNT]; /* words reported as missing, like scene.given */
     struct deck_place output_interval_place, bodies_place, particles_place, materials_place;
     struct deck_place cell_place, contact_place, interpolation_place, total_place, transfer_place, averaging_place, equilibrium_place, small_place, span_place[3];
@@ -141,6 +141,7 @@ void reader_skip_solid(struct reader *reader);
 
 /* Checks that need the whole deck (categories' own files). */
 void reader_finish_sph(struct reader *reader);
+void reader_finish_rkpm(struct reader *reader);
 void reader_finish_general(struct reader *reader, struct deck_place end);
 void reader_finish_grid(struct reader *reader, struct deck_place end);
 void reader_finish_materials(struct reader *reader);

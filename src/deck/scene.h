@@ -3,6 +3,7 @@
 #ifndef DECK_SCENE_H
 #define DECK_SCENE_H
 
+#include "deck/scene_rkpm.h"
 #include "deck/scene_sph.h"
 #include "deck/text.h"
 #include "material/law.h"
@@ -192,6 +193,7 @@ struct scene {
     size_t n_holds, holds_capacity;
     enum method_name method;
     struct scene_sph sph;
+    struct scene_rkpm rkpm;
 };
 
 /* An empty scene with the defaults of the dialect. */

@@ -174,6 +174,9 @@ COLUMN_VALUE(enthalpy, COLUMN_ENTHALPY)
 COLUMN_VALUE(liquid, COLUMN_LIQUID)
 COLUMN_VALUE(curvature, COLUMN_CURVATURE)
 COLUMN_VALUE(laser_power, COLUMN_LASER_POWER)
+COLUMN_VALUE(coefficient, COLUMN_COEFFICIENT)
+COLUMN_VALUE(field, COLUMN_FIELD)
+COLUMN_VALUE(exact, COLUMN_EXACT)
 
 static double state(const struct result_source *s, size_t p)
 {
@@ -192,19 +195,19 @@ static const struct result rows[] = {
     {.name = "laye", .methods = METHODS_MPM, .doc = "layer of the build", .is_integer = true, .columns = {COLUMN_LAYER}, .value = layer},
     {.name = "ghos", .methods = METHODS_MPM, .doc = "1 where the particle is open, 0 where it is closed", .is_integer = true, .value = is_open},
     {.name = "epef", .methods = METHODS_MPM, .doc = "effective plastic strain", .value = plastic_strain},
-    {.name = "mat", .doc = "material number", .is_integer = true, .value = material},
-    {.name = "pres", .unit = "stress", .doc = "pressure, minus the mean stress", .value = pressure},
-    {.name = "volu", .unit = "length^3", .doc = "present volume", .value = volume},
-    {.name = "vol", .unit = "length^3", .doc = "the same as volu", .value = volume},
-    {.name = "engk", .unit = "energy", .doc = "kinetic energy; in a curve of all particles",
+    {.name = "mat", .methods = METHODS_PARTICLES, .doc = "material number", .is_integer = true, .value = material},
+    {.name = "pres", .methods = METHODS_PARTICLES, .unit = "stress", .doc = "pressure, minus the mean stress", .value = pressure},
+    {.name = "volu", .methods = METHODS_PARTICLES, .unit = "length^3", .doc = "present volume", .value = volume},
+    {.name = "vol", .methods = METHODS_PARTICLES, .unit = "length^3", .doc = "the same as volu", .value = volume},
+    {.name = "engk", .methods = METHODS_PARTICLES, .unit = "energy", .doc = "kinetic energy; in a curve of all particles",
      .total = TOTAL_KINETIC, .value = kinetic_energy},
     {.name = "engi", .unit = "energy", .doc = "internal energy; in a curve of all particles",
      .methods = METHODS_MPM, .total = TOTAL_INTERNAL, .value = internal_energy},
-    {.name = "velx", .unit = "length/time", .doc = "velocity along x", .value = velocity_x},
-    {.name = "vely", .unit = "length/time", .doc = "velocity along y", .value = velocity_y},
-    {.name = "velz", .unit = "length/time", .doc = "velocity along z", .value = velocity_z},
-    {.name = "spee", .unit = "length/time", .doc = "speed", .value = speed},
-    {.name = "cels", .unit = "temperature", .doc = "temperature", .value = temperature},
+    {.name = "velx", .methods = METHODS_PARTICLES, .unit = "length/time", .doc = "velocity along x", .value = velocity_x},
+    {.name = "vely", .methods = METHODS_PARTICLES, .unit = "length/time", .doc = "velocity along y", .value = velocity_y},
+    {.name = "velz", .methods = METHODS_PARTICLES, .unit = "length/time", .doc = "velocity along z", .value = velocity_z},
+    {.name = "spee", .methods = METHODS_PARTICLES, .unit = "length/time", .doc = "speed", .value = speed},
+    {.name = "cels", .methods = METHODS_PARTICLES, .unit = "temperature", .doc = "temperature", .value = temperature},
     {.name = "fail", .methods = METHODS_MPM, .doc = "1 where the material failed", .is_integer = true, .value = failed},
     {.name = "sspd", .methods = METHODS_MPM, .unit = "length/time", .doc = "sound speed of the artificial viscosity", .value = sound_speed},
     {.name = "damg", .methods = METHODS_MPM, .doc = "damage", .value = damage},
@@ -214,11 +217,11 @@ static const struct result rows[] = {
     {.name = "styz", .methods = METHODS_MPM, .unit = "stress", .doc = "stress yz", .value = stress_yz},
     {.name = "stxz", .methods = METHODS_MPM, .unit = "stress", .doc = "stress xz", .value = stress_xz},
     {.name = "stxy", .methods = METHODS_MPM, .unit = "stress", .doc = "stress xy", .value = stress_xy},
-    {.name = "disx", .unit = "length", .doc = "displacement along x",
+    {.name = "disx", .methods = METHODS_PARTICLES, .unit = "length", .doc = "displacement along x",
      .columns = {COLUMN_INITIAL_POSITION}, .value = displacement_x},
-    {.name = "disy", .unit = "length", .doc = "displacement along y",
+    {.name = "disy", .methods = METHODS_PARTICLES, .unit = "length", .doc = "displacement along y",
      .columns = {COLUMN_INITIAL_POSITION}, .value = displacement_y},
-    {.name = "disz", .unit = "length", .doc = "displacement along z",
+    {.name = "disz", .methods = METHODS_PARTICLES, .unit = "length", .doc = "displacement along z",
      .columns = {COLUMN_INITIAL_POSITION}, .value = displacement_z},
 #define SPH .methods = METHODS_SPH
     {.name = "dens", .unit = "mass/length^3", .doc = "density", SPH, .columns = {COLUMN_DENSITY}, .value = density},
@@ -241,6 +244,10 @@ static const struct result rows[] = {
     {.name = "wflu", .unit = "power", .doc = "heat that comes in from the wall of given temperature that the particle belongs to; 0 for "
                                              "particles of others; with heat", SPH, .value = heat_of_wall},
 #undef SPH
+    {.name = "fiel", .methods = METHODS_RKPM, .doc = "solution at a node", .columns = {COLUMN_FIELD}, .value = field},
+    {.name = "coef", .methods = METHODS_RKPM, .doc = "coefficient of a node's shape function, which is not the value there", .columns = {COLUMN_COEFFICIENT},
+     .value = coefficient},
+    {.name = "exac", .methods = METHODS_RKPM, .doc = "exact solution at a node", .columns = {COLUMN_EXACT}, .value = exact},
     {.name = "momx", .unit = "mass*length/time", .doc = "momentum along x", .total = TOTAL_MOMENTUM_X},
     {.name = "momy", .unit = "mass*length/time", .doc = "momentum along y", .total = TOTAL_MOMENTUM_Y},
     {.name = "momz", .unit = "mass*length/time", .doc = "momentum along z", .total = TOTAL_MOMENTUM_Z},

@@ -44,6 +44,12 @@ check "smoothed particles: flow that leaves the grid" decks/coverage/sph_lost.mp
 check "smoothed particles: surface tension" ../decks/sph/laplace_2d.mpm 2 ""
 check "smoothed particles: heat, beam, a scene that repeats" decks/coverage/sph_beam.mpm 4 ""
 check "generators" decks/reference/generators.mpm 2 ""
+# the problems of a deck of reproducing kernel particles, up to 6 nodes along x
+problem() {
+    sed 's/^  refi .*/  refi 3 6/' "$here/../decks/rkpm/$1.mpm" >job.mpm
+    if grind -o out job.mpm; then echo "ok $1"; else echo "FAIL $1"; head -n 12 said; failed=1; fi
+}
+for deck in sine_1d_quad_25 sine_2d_30 helmholtz_2 poisson_lagrange poisson_nitsche poisson_transformation; do problem $deck; done
 cp "$here/property/equilibria.mpm" job.mpm
 if grind -o out job.mpm; then echo "ok equilibria"; else echo "FAIL equilibria"; head -n 12 said; failed=1; fi
 printf 'mpm3d wrong\nnbco 0 nbo 1\nmate\n1 elas x\n' >job.mpm

@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What only the whole block of rkpm shows: words that are missing or need others, nodes, supports. */
+#include "base/memory.h"
+#include "deck/commands_rkpm.h"
+
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+
+static const double MOST_NODES = 1e7, LARGEST_SUPPORT = 20;
+/* Above this, times the spacing, the trace between boundary nodes is held more than it can follow (spec 4). */
+static const double LARGEST_BETA = 1e3;
+
+static bool was_given(const struct reader *reader, const char *name)
+{
+    return reader->rkpm_places[keyword_in(rkpm_keywords, name) - rkpm_keywords].line > 0;
+}
+
+static struct deck_place place_of(const struct reader *reader, const char *name)
+{
+    return was_given(reader, name) ? reader->rkpm_places[keyword_in(rkpm_keywords, name) - rkpm_keywords] : reader->scene->rkpm.place;
+}
+
+/* Words that every problem has. */
+static bool check_missing(struct reader *reader)
+{
+    static const struct {
+        const char *name, *expected;
+    } rows[] = {{"node", "node box x0 x1 ... nx ..."}, {"supp", "supp a"}, {"prob", "prob approx|helmholtz|poisson"},
+                {"func", "func sine|expo|wave|line"}};
+    bool good = true;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        if (was_given(reader, rows[i].name))
+            continue;
+        diagnostics_lack(reader->diagnostics, reader->scene->rkpm.place, "the block 'rkpm' lacks '%s'; expected '%s'", rows[i].name,
+                         rows[i].expected);
+        good = false;
+    }
+    return good;
+}
+
+/* Words that mean nothing to the problem. */
+static void check_needs(struct reader *reader)
+{
+    const struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    const bool is_solved = rkpm->problem != PROBLEM_APPROXIMATION;
+    const bool has_beta = rkpm->constraint == CONSTRAINT_PENALTY || rkpm->constraint == CONSTRAINT_NITSCHE;
+    const struct {
+        const char *name, *needed;
+        bool is_there;
+    } rows[] = {{"gaus", "'prob helmholtz' or 'prob poisson'", is_solved},
+                {"cons", "'prob helmholtz' or 'prob poisson'", is_solved},
+                {"gbou", "'cons lagr', 'cons pena' or 'cons nits'", is_solved && rkpm->constraint != CONSTRAINT_TRANSFORMATION},
+                {"beta", "'cons pena' or 'cons nits'", is_solved && has_beta},
+                {"wave", "'prob helmholtz' or 'func wave'", rkpm->problem == PROBLEM_HELMHOLTZ || rkpm->function == FUNCTION_WAVE}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const bool is_wave = strcmp(rows[i].name, "wave") == 0;
+        if (was_given(reader, rows[i].name) && !rows[i].is_there)
+            diagnostics_error(reader->diagnostics, place_of(reader, rows[i].name), "'%s' needs %s", rows[i].name, rows[i].needed);
+        else if (is_wave && rows[i].is_there && !was_given(reader, "wave"))
+            diagnostics_error(reader->diagnostics, place_of(reader, rkpm->function == FUNCTION_WAVE ? "func" : "prob"),
+                              "the wave number is not given; expected 'wave k'");
+    }
+}
+
+/* --- nodes --- */
+
+/* Extents and numbers of the box, as many as dimensions; false after an error. */
+static bool check_box(struct reader *reader)
+{
+    static const char *const expected[] = {"", "x0 x1 nx", "x0 x1 y0 y1 nx ny", "x0 x1 y0 y1 z0 z1 nx ny nz"};
+    struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    const int axes = (int)rkpm->dimension;
+    if (rkpm->n_box != 3 * axes) {
+        diagnostics_error(reader->diagnostics, place_of(reader, "node"), "'node box' has %d numbers; with 'dime %d' expected %s", rkpm->n_box,
+                          axes, expected[axes]);
+        return false;
+    }
+    bool good = true;
+    for (int a = 0; a < axes; a++) {
+        const double low = rkpm->box_read[2 * a], high = rkpm->box_read[2 * a + 1], number = rkpm->box_read[2 * axes + a];
+        if (!(high > low) || !isfinite(high - low)) {
+            diagnostics_error(reader->diagnostics, rkpm->box_places[2 * a + 1], "the box ends at %g along %c, but begins at %g", high, "xyz"[a], low);
+            good = false;
+        }
+        if (!(number >= 2 && number <= MOST_NODES && number == floor(number))) {
+            diagnostics_error(reader->diagnostics, rkpm->box_places[2 * axes + a], "the number of nodes along %c must be a whole one from 2 to %g, not %g",
+                              "xyz"[a], MOST_NODES, number);
+            good = false;
+        }
+        rkpm->box[2 * a] = low;
+        rkpm->box[2 * a + 1] = high;
+        rkpm->numbers[a] = good ? (long)number : 2;
+    }
+    return good;
+}
+
+/* A basis of degree n needs n + 1 nodes along each axis, and there is a limit for all. */
+static void check_numbers(struct reader *reader, const long numbers[3], struct deck_place place)
+{
+    const struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    const long least = rkpm->basis == BASIS_QUADRATIC ? 3 : 2;
+    double nodes = 1;
+    for (int a = 0; a < rkpm->dimension; a++) {
+        nodes *= (double)numbers[a];
+        if (numbers[a] < least)
+            diagnostics_error(reader->diagnostics, place, "%ld nodes along %c are too few for the basis; expected %ld or more", numbers[a], "xyz"[a],
+                              least);
+    }
+    if (nodes > MOST_NODES)
+        diagnostics_error(reader->diagnostics, place, "these are %g nodes; expected at most %g", nodes, MOST_NODES);
+}
+
+/* Numbers of nodes with so many along x; false where the other axes get no whole number of cells. */
+static bool refine(const struct scene_rkpm *rkpm, long along_x, long numbers[3])
+{
+    for (int a = 0; a < rkpm->dimension; a++) {
+        const double cells = (double)(along_x - 1) * (double)(rkpm->numbers[a] - 1) / (double)(rkpm->numbers[0] - 1);
+        if (cells < 1 || cells > MOST_NODES || fabs(cells - floor(cells + 0.5)) > 1e-9 * cells)
+            return false;
+        numbers[a] = (long)floor(cells + 0.5) + 1;
+    }
+    return true;
+}
+
+static void make_levels(struct reader *reader)
+{
+    struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    rkpm->n_levels = rkpm->n_refinements > 0 ? rkpm->n_refinements : 1;
+    rkpm->levels = memory_array(rkpm->n_levels, sizeof *rkpm->levels, "refi");
+    for (int a = 0; a < 3; a++)
+        rkpm->levels[0][a] = a < rkpm->dimension ? rkpm->numbers[a] : 1;
+    check_numbers(reader, rkpm->numbers, rkpm->box_places[2 * rkpm->dimension]);
+    for (size_t i = 0; i < rkpm->n_refinements; i++) {
+        long *numbers = rkpm->levels[i];
+        numbers[0] = numbers[1] = numbers[2] = 1;
+        if (refine(rkpm, rkpm->refinements[i], numbers))
+            check_numbers(reader, numbers, rkpm->refinement_places[i]);
+        else
+            diagnostics_error(reader->diagnostics, rkpm->refinement_places[i],
+                              "%ld nodes along x make no whole number of cells, from 1 to %g, along the other axes", rkpm->refinements[i], MOST_NODES);
+    }
+}
+
+/* --- the rest --- */
+
+static void check_support(struct reader *reader)
+{
+    const struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    const int order = rkpm->basis == BASIS_QUADRATIC ? 2 : 1;
+    if (rkpm->n_support != 1 && rkpm->n_support != rkpm->dimension)
+        diagnostics_error(reader->diagnostics, place_of(reader, "supp"), "'supp' has %d numbers; expected 1, or %ld with 'dime %ld'",
+                          rkpm->n_support, rkpm->dimension, rkpm->dimension);
+    for (int a = 0; a < rkpm->n_support; a++)
+        if (rkpm->support[a] <= order)
+            diagnostics_error(reader->diagnostics, rkpm->support_places[a],
+                              "a support of %g spacings is too small for the basis: the moment matrix is singular at the boundary; expected more than %d",
+                              rkpm->support[a], order);
+        else if (rkpm->support[a] > LARGEST_SUPPORT)
+            diagnostics_error(reader->diagnostics, rkpm->support_places[a], "a support of %g spacings reaches too many nodes; expected at most %g",
+                              rkpm->support[a], LARGEST_SUPPORT);
+        else if (rkpm->support[a] < order + 0.5)
+            diagnostics_warning(reader->diagnostics, rkpm->support_places[a], "a support of %g spacings is small for the basis; take %g or more",
+                                rkpm->support[a], order + 0.5);
+}
+
+/* The wave is 1 at one end and 0 at the other, which nothing does that fits as a whole number of half waves. */
+static void check_wave(struct reader *reader)
+{
+    const struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    const double turns = rkpm->wave_number * (rkpm->box[1] - rkpm->box[0]);
+    if (rkpm->function == FUNCTION_WAVE && was_given(reader, "wave") && !(fabs(sin(turns)) > 1e-9))
+        diagnostics_error(reader->diagnostics, place_of(reader, "wave"), 
+                          "%g half waves fit between the ends of the box: none is 1 at one end and 0 at the other", turns / acos(-1));
+}
+
+static void check_beta(struct reader *reader)
+{
+    const struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    double largest = 0;
+    for (size_t i = 0; i < rkpm->n_levels; i++)
+        for (int a = 0; a < rkpm->dimension; a++)
+            largest = fmax(largest, (rkpm->box[2 * a + 1] - rkpm->box[2 * a]) / fmax((double)(rkpm->levels[i][a] - 1), 1));
+    const double product = rkpm->beta * (rkpm->beta_over_spacing ? 1 : largest);
+    if (was_given(reader, "beta") && product > LARGEST_BETA)
+        diagnostics_warning(reader->diagnostics, place_of(reader, "beta"),
+                            "beta times the spacing is %g: above %g coarse nodes are held too much at the boundary", product, LARGEST_BETA);
+}
+
+void reader_finish_rkpm(struct reader *reader)
+{
+    struct scene *scene = reader->scene;
+    struct scene_rkpm *rkpm = &scene->rkpm;
+    if (!scene->title)
+        scene->title = memory_text("mpm3d", 5);
+    if (!reader_was_given(reader, "rkpm")) {
+        diagnostics_error(reader->diagnostics, reader->method_place, "'meth rkpm' needs its block; expected 'rkpm ... ends'");
+        return;
+    }
+    if (reader->has_bad_rkpm || !check_missing(reader))
+        return;
+    check_needs(reader);
+    check_support(reader);
+    if (!check_box(reader))
+        return;
+    make_levels(reader);
+    check_wave(reader);
+    check_beta(reader);
+    const long *last = rkpm->levels[rkpm->n_levels - 1];
+    if (diagnostics_errors(reader->diagnostics) == 0)
+        scene->n_particles = last[0] * last[1] * last[2];
+    scene->end_time = scene->output_interval = scene->report_interval = (double)rkpm->n_levels;
+}

@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The block of rkpm: nodes, shape functions, the problem and how its boundary is held. */
+#include "deck/commands_rkpm.h"
+#include "base/memory.h"
+
+#include <stddef.h>
+
+#define NUMBER(name, unit, limit) {name, unit, ARGUMENT_REAL, limit}
+#define WORD(name) ((const struct argument[]){{name, NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}})
+#define LIST(...) ((const struct argument[]){__VA_ARGS__, {0}})
+#define POINTS LIST({"n", NULL, ARGUMENT_INTEGER, LIMIT_GAUSS})
+#define FIELD(name) offsetof(struct scene, rkpm.name)
+#define CHOICE(names, name) &(const struct keyword_choice){names, FIELD(name), false}
+
+_Static_assert(sizeof(enum basis_form) == sizeof(int), "choices are stored as int");
+static const char *const bases[] = {[BASIS_LINEAR] = "linear", [BASIS_BILINEAR] = "bilinear", [BASIS_QUADRATIC] = "quad", NULL};
+static const char *const gradients[] = {[GRADIENT_DIRECT] = "direct", [GRADIENT_IMPLICIT] = "implicit", NULL};
+static const char *const problems[] = {[PROBLEM_APPROXIMATION] = "approx", [PROBLEM_HELMHOLTZ] = "helmholtz",
+                                       [PROBLEM_POISSON] = "poisson", NULL};
+static const char *const functions[] = {[FUNCTION_SINE] = "sine", [FUNCTION_EXPONENTIAL] = "expo",
+                                        [FUNCTION_WAVE] = "wave", [FUNCTION_LINEAR] = "line", NULL};
+static const char *const constraints[] = {[CONSTRAINT_TRANSFORMATION] = "tran", [CONSTRAINT_LAGRANGE] = "lagr",
+                                          [CONSTRAINT_PENALTY] = "pena", [CONSTRAINT_NITSCHE] = "nits", NULL};
+
+/* Reads the next word as a number of `argument`; false after an error, or at the end of the line. */
+static bool read_next(struct reader *reader, const struct argument *argument, const char *owner, struct value *value)
+{
+    return reader_has_more(reader) && reader_values(reader, argument, owner, value);
+}
+
+static void read_support(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    static const struct argument more[] = {NUMBER("a", "spacings", LIMIT_POSITIVE), {0}};
+    struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    struct value value = values[0];
+    (void)word;
+    rkpm->n_support = 0;
+    do {
+        rkpm->support_places[rkpm->n_support] = value.word.place;
+        rkpm->support[rkpm->n_support++] = value.real;
+    } while (rkpm->n_support < 3 && read_next(reader, more, "supp", &value));
+    for (int a = rkpm->n_support; a < 3 && rkpm->n_support == 1; a++)
+        rkpm->support[a] = rkpm->support[0];
+}
+
+/* How many numbers there are is looked at when the dimension is known. */
+static void read_nodes(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    static const char *const kinds[] = {"box", NULL};
+    static const struct argument number[] = {NUMBER("number", NULL, LIMIT_NONE), {0}};
+    struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    struct value value;
+    (void)word;
+    (void)values;
+    rkpm->n_box = 0;
+    if (reader_optional(reader, kinds) < 0) {
+        reader_expect(reader, "node", "'box x0 x1 ... nx ...'");
+        return;
+    }
+    while (rkpm->n_box < RKPM_BOX && read_next(reader, number, "node box", &value)) {
+        rkpm->box_places[rkpm->n_box] = value.word.place;
+        rkpm->box_read[rkpm->n_box++] = value.real;
+    }
+}
+
+static void read_refinements(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    static const struct argument more[] = {{"nx", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}};
+    struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    struct value value = values[0];
+    (void)word;
+    rkpm->n_refinements = 0;
+    do {
+        rkpm->refinements = memory_grow(rkpm->refinements, &rkpm->refinements_capacity, rkpm->n_refinements + 1,
+                                        sizeof *rkpm->refinements, "refi");
+        rkpm->refinement_places = memory_grow(rkpm->refinement_places, &rkpm->refinement_places_capacity, rkpm->n_refinements + 1,
+                                              sizeof *rkpm->refinement_places, "refi");
+        rkpm->refinement_places[rkpm->n_refinements] = value.word.place;
+        rkpm->refinements[rkpm->n_refinements++] = value.integer;
+    } while (read_next(reader, more, "refi", &value));
+}
+
+static void read_beta(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    static const char *const names[] = {"/h", NULL};
+    (void)word;
+    (void)values;
+    reader->scene->rkpm.beta_over_spacing = reader_optional(reader, names) == 0;
+}
+
+const struct keyword rkpm_keywords[] = {
+    {.name = "dime", .long_name = "dimension", .arguments = LIST({"d", NULL, ARGUMENT_INTEGER, LIMIT_AXES}), .field = FIELD(dimension),
+     .doc = "dimensions (2)"},
+    {.name = "node", .apply = read_nodes,
+     .doc = "`node box x0 x1 [y0 y1 [z0 z1]] nx [ny [nz]]`: a box and the numbers of nodes along its axes, those on its boundary "
+            "included; as many axes as dimensions"},
+    {.name = "refi", .long_name = "refine", .arguments = LIST({"nx", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}), .apply = read_refinements,
+     .doc = "the problem is solved with each of these numbers of nodes along x, one after another, and those along the other axes in "
+            "proportion; the results are those of the last one. Without it once, as `node` says"},
+    {.name = "basi", .long_name = "basis", .arguments = WORD("linear|bilinear|quad"), .choice = CHOICE(bases, basis),
+     .doc = "what shape functions reproduce: monomials up to degree 1 (linear, default) or 2 (quad), or products of linear ones (bilinear)"},
+    {.name = "supp", .long_name = "support", .arguments = LIST(NUMBER("a", "spacings", LIMIT_POSITIVE)), .apply = read_support,
+     .doc = "support radius over the spacing, one for all axes or one for each; more than 1, with quad more than 2. 1.75 and 2.5 are "
+            "good ones"},
+    {.name = "grad", .long_name = "gradient", .arguments = WORD("direct|implicit"), .choice = CHOICE(gradients, gradient),
+     .doc = "gradients of shape functions: their own (direct, default), or those that reproduce gradients of the basis (implicit)"},
+    {.name = "prob", .long_name = "problem", .arguments = WORD("approx|helmholtz|poisson"), .choice = CHOICE(problems, problem),
+     .doc = "the function itself, from its values at the nodes (approx); div grad u + k^2 u = f (helmholtz); div grad u = f (poisson): f and "
+            "the values at the boundary are those of the function"},
+    {.name = "func", .long_name = "function", .arguments = WORD("sine|expo|wave|line"), .choice = CHOICE(functions, function),
+     .doc = "exact solution: sin x sin y sin z (sine), exp(x y z) (expo), sin k(x1 - x)/sin k(x1 - x0) with the wave number and ends of the box "
+            "(wave), 1 + x + 2 y + 3 z (line); y and z as far as there are dimensions"},
+    {.name = "wave", .arguments = LIST(NUMBER("k", "1/length", LIMIT_POSITIVE)), .field = FIELD(wave_number),
+     .doc = "wave number k of helmholtz and of func wave"},
+    {.name = "gaus", .long_name = "gauss", .arguments = POINTS, .field = FIELD(gauss),
+     .doc = "Gauss points per cell and axis of helmholtz and poisson (2; 5 with quad)"},
+    {.name = "gbou", .long_name = "gboundary", .arguments = POINTS, .field = FIELD(boundary_gauss),
+     .doc = "Gauss points per axis of a boundary segment, of lagr, pena and nits (2)"},
+    {.name = "gnor", .long_name = "gnorm", .arguments = POINTS, .field = FIELD(norm_gauss),
+     .doc = "Gauss points per cell and axis of the norms of the error (2; 5 with helmholtz)"},
+    {.name = "cons", .long_name = "constraint", .arguments = WORD("tran|lagr|pena|nits"), .choice = CHOICE(constraints, constraint),
+     .doc = "how values at the boundary are held: exactly at its nodes, by transformation of coefficients (tran, default), by Lagrange "
+            "multipliers (lagr), by a penalty (pena), by Nitsche's method (nits)"},
+    {.name = "beta", .arguments = LIST(NUMBER("beta", NULL, LIMIT_POSITIVE)), .field = FIELD(beta), .apply = read_beta,
+     .doc = "factor of pena and nits; with `/h` behind it over the smallest spacing (100 /h)"},
+    {0}};
+
+_Static_assert(sizeof rkpm_keywords / sizeof *rkpm_keywords <= READER_WORDS, "reader.rkpm_places has room for all words of rkpm");
+
+void reader_rkpm(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)values;
+    reader->scene->rkpm.place = word->place;
+    const int errors = diagnostics_errors(reader->diagnostics);
+    reader_block(reader, rkpm_keywords, "ends", "rkpm");
+    reader->has_bad_rkpm = diagnostics_errors(reader->diagnostics) > errors;
+}

@@ -1,0 +1,10 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The block of reproducing kernel particles, for the table of solving settings. */
+#ifndef DECK_COMMANDS_RKPM_H
+#define DECK_COMMANDS_RKPM_H
+
+#include "deck/reader.h"
+
+void reader_rkpm(struct reader *reader, const struct deck_word *word, const struct value *values);
+
+#endif

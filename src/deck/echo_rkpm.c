@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "deck/echo_rkpm.h"
+#include "deck/echo.h"
+#include "deck/keyword.h"
+
+#include <string.h>
+
+static void print_numbers(FILE *stream, const char *words, const double *values, int count)
+{
+    fprintf(stream, "  %s", words);
+    echo_numbers(stream, values, count);
+}
+
+/* Words that only some problems have are left out of the others. */
+static bool has_word(const struct scene_rkpm *rkpm, const char *name)
+{
+    const bool is_solved = rkpm->problem != PROBLEM_APPROXIMATION;
+    const bool has_beta = rkpm->constraint == CONSTRAINT_PENALTY || rkpm->constraint == CONSTRAINT_NITSCHE;
+    if (strcmp(name, "cons") == 0)
+        return is_solved;
+    if (strcmp(name, "beta") == 0)
+        return is_solved && has_beta;
+    if (strcmp(name, "wave") == 0)
+        return rkpm->problem == PROBLEM_HELMHOLTZ || rkpm->function == FUNCTION_WAVE;
+    if (strcmp(name, "gaus") == 0)
+        return rkpm->gauss > 0;
+    if (strcmp(name, "gbou") == 0)
+        return rkpm->boundary_gauss > 0;
+    return strcmp(name, "gnor") != 0 || rkpm->norm_gauss > 0;
+}
+
+static void echo_word(const struct scene *scene, const struct keyword *row, FILE *stream)
+{
+    const char *field = (const char *)scene + row->field;
+    if (row->choice)
+        fprintf(stream, "  %s %s", row->name, echo_choice(scene, row->choice));
+    else if (row->arguments[0].kind == ARGUMENT_INTEGER)
+        fprintf(stream, "  %s %ld", row->name, *(const long *)(const void *)field);
+    else
+        print_numbers(stream, row->name, (const double *)(const void *)field, 1);
+    fputs(strcmp(row->name, "beta") == 0 && scene->rkpm.beta_over_spacing ? " /h\n" : "\n", stream);
+}
+
+void echo_rkpm(const struct scene *scene, FILE *stream)
+{
+    const struct scene_rkpm *rkpm = &scene->rkpm;
+    fprintf(stream, "rkpm\n");
+    for (const struct keyword *row = rkpm_keywords; row->name; row++)
+        if ((row->choice || row->field != KEYWORD_NO_FIELD) && has_word(rkpm, row->name))
+            echo_word(scene, row, stream);
+    print_numbers(stream, "supp", rkpm->support, rkpm->n_support);
+    fputc('\n', stream);
+    print_numbers(stream, "node box", rkpm->box_read, rkpm->n_box);
+    fputs(rkpm->n_refinements > 0 ? "\n  refi" : "\n", stream);
+    for (size_t i = 0; i < rkpm->n_refinements; i++)
+        fprintf(stream, " %ld", rkpm->refinements[i]);
+    fputs(rkpm->n_refinements > 0 ? "\nends\n" : "ends\n", stream);
+}

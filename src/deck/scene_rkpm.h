@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a deck says of reproducing kernel particles: the block rkpm. */
+#ifndef DECK_SCENE_RKPM_H
+#define DECK_SCENE_RKPM_H
+
+#include "deck/text.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum basis_form { BASIS_LINEAR, BASIS_BILINEAR, BASIS_QUADRATIC };
+enum gradient_form { GRADIENT_DIRECT, GRADIENT_IMPLICIT, GRADIENT_NONE };
+enum rkpm_problem { PROBLEM_APPROXIMATION, PROBLEM_HELMHOLTZ, PROBLEM_POISSON };
+
+/* Exact solutions: product of sines, exponential of the product of coordinates, sine wave that is 1 at the low end and 0 at
+ * the high one, linear function. */
+enum rkpm_function { FUNCTION_SINE, FUNCTION_EXPONENTIAL, FUNCTION_WAVE, FUNCTION_LINEAR };
+
+/* How values at the boundary are prescribed. */
+enum constraint_form { CONSTRAINT_TRANSFORMATION, CONSTRAINT_LAGRANGE, CONSTRAINT_PENALTY, CONSTRAINT_NITSCHE };
+
+enum { RKPM_BOX = 9 }; /* numbers of `node box` in three dimensions */
+
+struct scene_rkpm {
+    long dimension;
+    enum basis_form basis;
+    enum gradient_form gradient;
+    double support[3];    /* a: support radius over the spacing, by axis */
+    int n_support;        /* numbers given: 0, 1 (of all axes) or as many as axes */
+    double box[6];        /* x0 x1 y0 y1 z0 z1 */
+    long numbers[3];      /* of nodes along the axes, those on the boundary included */
+    int n_box;            /* numbers given */
+    double box_read[RKPM_BOX]; /* as they stand */
+    struct deck_place box_places[RKPM_BOX], support_places[3];
+    long *refinements;    /* numbers of nodes along x, from problem to problem */
+    struct deck_place *refinement_places;
+    size_t n_refinements, refinements_capacity, refinement_places_capacity;
+    long (*levels)[3];    /* numbers of nodes of one problem after another: of `node`, or of each refinement */
+    size_t n_levels;
+    enum rkpm_problem problem;
+    enum rkpm_function function;
+    double wave_number;
+    long gauss, boundary_gauss, norm_gauss; /* points per cell and axis, per boundary segment, of norms; 0: the default */
+    enum constraint_form constraint;
+    double beta;          /* of penalty and Nitsche's method */
+    bool beta_over_spacing;
+    struct deck_place place; /* of the word rkpm */
+};
+
+#endif

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Problems on reproducing kernel particles as a run sees them: each level is a step and counts 1 in time. */
+#include "run.h"
+#include "rkpm/rkpm.h"
+#include "summary.h"
+
+static void open_solver(struct run *run)
+{
+    static const int number = 1;
+    struct rkpm *rkpm = run->rkpm = rkpm_open(run->scene, &run->timers);
+    run->store = rkpm->store;
+    run->source = (struct result_source){.store = rkpm->store, .body_material_number = &number};
+}
+
+static void close_solver(struct run *run)
+{
+    rkpm_close(run->rkpm);
+}
+
+static struct instability advance(struct run *run)
+{
+    return rkpm_advance(run->rkpm);
+}
+
+static void look(struct run *run)
+{
+    const long step = run->rkpm->step;
+    run->course = (struct run_course){step, (double)step, 1, 0};
+    run->totals.time = (double)step;
+}
+
+static bool goes_on(const struct run *run)
+{
+    return (size_t)run->rkpm->step < run->rkpm->n_levels;
+}
+
+/* Nodes stay where they are. */
+static void hide_lost(struct run *run)
+{
+    (void)run;
+}
+
+static void exchange(struct run *run, struct checkpoint *checkpoint)
+{
+    rkpm_exchange(run->rkpm, checkpoint);
+}
+
+static void start_table(struct run *run)
+{
+    fprintf(run->errors.stream, "VARIABLES = \"n\" \"nx\" \"h\" \"L2\" \"H1\" \"rateL2\" \"rateH1\"\n");
+}
+
+/* The line of the last level. */
+static bool write_table(struct run *run)
+{
+    const struct rkpm_level *level = &run->rkpm->levels[run->rkpm->step - 1];
+    const struct rkpm_result *result = &level->result;
+    const double values[] = {level->box.spacing[0], result->l2, result->h1, result->l2_rate, result->h1_rate};
+    fprintf(run->errors.stream, " %9zu %6ld", level->count, level->box.numbers[0]);
+    for (size_t i = 0; i < sizeof values / sizeof values[0]; i++)
+        table_real(&run->errors, values[i]);
+    table_end_line(&run->errors);
+    return table_flush(&run->errors);
+}
+
+static double updates(const struct run *run)
+{
+    return run->rkpm->updates;
+}
+
+const struct method method_rkpm = {
+    .name = "rkpm",
+    .is_static = true,
+    .open = open_solver,
+    .close = close_solver,
+    .advance = advance,
+    .look = look,
+    .goes_on = goes_on,
+    .hide_lost = hide_lost,
+    .exchange = exchange,
+    .start_errors = start_table,
+    .write_errors = write_table,
+    .print_scene = summary_rkpm_check,
+    .print_start = summary_rkpm_start,
+    .print_instability = summary_rkpm_instability,
+    .print_end = summary_rkpm_end,
+    .updates = updates,
+};

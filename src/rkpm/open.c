@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From the scene to levels with room for all that they need. */
+#include "base/memory.h"
+#include "rkpm/rkpm.h"
+
+#include <math.h>
+
+/* --- nodes --- */
+
+static void create_box(struct rkpm_level *level, const struct scene_rkpm *words, const long numbers[3])
+{
+    struct node_box *box = &level->box;
+    *box = (struct node_box){.dimension = (int)words->dimension};
+    level->count = 1;
+    for (int a = 0; a < 3; a++) {
+        box->numbers[a] = numbers[a];
+        level->count *= (size_t)numbers[a];
+        if (a >= box->dimension)
+            continue;
+        box->low[a] = words->box[2 * a];
+        box->spacing[a] = (words->box[2 * a + 1] - words->box[2 * a]) / (double)(numbers[a] - 1);
+    }
+}
+
+static void create_nodes(struct rkpm_level *level)
+{
+    const struct node_box *box = &level->box;
+    for (int a = 0; a < 3; a++)
+        level->x[a] = memory_array(level->count, sizeof(double), "nodes");
+    for (size_t i = 0; i < level->count; i++) {
+        size_t rest = i;
+        for (int a = 0; a < box->dimension; a++) {
+            level->x[a][i] = box->low[a] + box->spacing[a] * (double)(rest % (size_t)box->numbers[a]);
+            rest /= (size_t)box->numbers[a];
+        }
+    }
+}
+
+bool rkpm_is_boundary(const struct node_box *box, size_t node)
+{
+    bool is_boundary = false;
+    for (int a = 0; a < box->dimension; a++) {
+        const size_t place = node % (size_t)box->numbers[a];
+        is_boundary = is_boundary || place == 0 || place + 1 == (size_t)box->numbers[a];
+        node /= (size_t)box->numbers[a];
+    }
+    return is_boundary;
+}
+
+static void open_level(struct rkpm *rkpm, struct rkpm_level *level, const long numbers[3])
+{
+    const struct scene_rkpm *words = rkpm->words;
+    double radius[3] = {1, 1, 1}, smallest = INFINITY;
+    create_box(level, words, numbers);
+    create_nodes(level);
+    for (int a = 0; a < level->box.dimension; a++) {
+        radius[a] = words->support[a] * level->box.spacing[a];
+        smallest = fmin(smallest, level->box.spacing[a]);
+    }
+    level->beta = words->beta_over_spacing ? words->beta / smallest : words->beta;
+    rkpm_shape_open(&level->shape, level->box.dimension, words->basis, level->count, level->x, radius);
+    level->coefficient = memory_array(level->count, sizeof(double), "coefficients");
+    if (words->problem != PROBLEM_APPROXIMATION)
+        rkpm_system_open(rkpm, level);
+    level->shape.enlarged = level->shape.lowered = 0;
+}
+
+/* The last level's nodes, as output sees them. */
+static void create_store(struct rkpm *rkpm)
+{
+    static const enum column columns[] = {COLUMN_POSITION, COLUMN_ID, COLUMN_BODY, COLUMN_COEFFICIENT, COLUMN_FIELD, COLUMN_EXACT};
+    const struct rkpm_level *level = &rkpm->levels[rkpm->n_levels - 1];
+    uint64_t wanted = 0;
+    for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++)
+        wanted |= column_bit(columns[i]);
+    struct store *store = rkpm->store = store_open(level->count, wanted);
+    for (size_t i = 0; i < level->count; i++) {
+        const double x[3] = {level->x[0][i], level->x[1][i], level->x[2][i]};
+        store->integer[COLUMN_ID][i] = store->index_of_id[i] = (int32_t)i;
+        for (int a = 0; a < 3; a++)
+            store->real[COLUMN_POSITION][a][i] = x[a];
+        store->real[COLUMN_EXACT][0][i] = field_value(&rkpm->field, x);
+    }
+}
+
+/* --- opening and closing --- */
+
+static int or_default(long given, int otherwise)
+{
+    return given > 0 ? (int)given : otherwise;
+}
+
+struct rkpm *rkpm_open(const struct scene *scene, struct timers *timers)
+{
+    const struct scene_rkpm *words = &scene->rkpm;
+    struct rkpm *rkpm = memory_array(1, sizeof *rkpm, "the run");
+    rkpm->scene = scene;
+    rkpm->words = words;
+    rkpm->timers = timers;
+    rkpm->field = (struct field){words->function, (int)words->dimension, words->wave_number, {words->box[0], words->box[1]}};
+    rkpm->gauss = or_default(words->gauss, words->basis == BASIS_QUADRATIC ? 5 : 2);
+    rkpm->boundary_gauss = or_default(words->boundary_gauss, 2);
+    rkpm->norm_gauss = or_default(words->norm_gauss, words->problem == PROBLEM_HELMHOLTZ ? 5 : 2);
+    rkpm->n_levels = words->n_levels;
+    timers_enter(timers, PHASE_SYSTEM);
+    rkpm->levels = memory_array(rkpm->n_levels, sizeof *rkpm->levels, "problems");
+    for (size_t i = 0; i < rkpm->n_levels; i++)
+        open_level(rkpm, &rkpm->levels[i], words->levels[i]);
+    create_store(rkpm);
+    timers_enter(timers, PHASE_OTHER);
+    return rkpm;
+}
+
+static void close_level(struct rkpm_level *level)
+{
+    for (int a = 0; a < 3; a++)
+        memory_free(level->x[a]);
+    rkpm_shape_close(&level->shape);
+    memory_free(level->coefficient);
+    rkpm_system_close(&level->system);
+}
+
+void rkpm_close(struct rkpm *rkpm)
+{
+    if (!rkpm)
+        return;
+    for (size_t i = 0; i < rkpm->n_levels; i++)
+        close_level(&rkpm->levels[i]);
+    memory_free(rkpm->levels);
+    store_close(rkpm->store);
+    memory_free(rkpm);
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which nodes are near a point: nodes sorted into cells as large as the support. */
+#ifndef RKPM_SEARCH_H
+#define RKPM_SEARCH_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+struct search {
+    int dimension;
+    double low[3], size[3]; /* corner of the first cell, cells' sides */
+    int cells[3];
+    int32_t *first;         /* per cell: place of its first node in `node`; one more at the end */
+    int32_t *node;          /* by cells, in a cell by number */
+};
+
+/* Cells of the given sides around nodes x[axis][node]. */
+void search_open(struct search *search, int dimension, size_t count, double *const x[3], const double size[3]);
+void search_close(struct search *search);
+
+/* The cells that reach nearer than `reach` cells' sides to a point: from[axis] to to[axis]; empty where to < from. */
+void search_range(const struct search *search, const double point[3], double reach, int from[3], int to[3]);
+
+static inline size_t search_cell(const struct search *search, const int cell[3])
+{
+    return ((size_t)cell[2] * (size_t)search->cells[1] + (size_t)cell[1]) * (size_t)search->cells[0] + (size_t)cell[0];
+}
+
+/* The most nodes that any point has in its range. */
+size_t search_most(const struct search *search, double reach);
+
+#endif

@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A problem from one level to the next, and its state between them. */
+#include "base/checkpoint.h"
+#include "rkpm/rkpm.h"
+
+#include <math.h>
+#include <stdio.h>
+
+const struct shape_row *rkpm_row(struct rkpm *rkpm, struct rkpm_level *level, const double x[3], enum gradient_form gradient)
+{
+    const struct shape_row *row = rkpm_shape_at(&level->shape, x, gradient);
+    if (row->order < 1 && !rkpm->instability.is_stopped) {
+        struct instability *instability = &rkpm->instability;
+        *instability = (struct instability){.is_stopped = true, .particle = -1};
+        snprintf(instability->cause, sizeof instability->cause, "too few nodes are near the point (%.6g, %.6g, %.6g) for linear functions", x[0], x[1],
+                 x[2]);
+        snprintf(instability->advice, sizeof instability->advice, "take a larger supp");
+    }
+    return row;
+}
+
+/* Coefficients are the values at the nodes. */
+static void approximate(struct rkpm *rkpm, struct rkpm_level *level)
+{
+    for (size_t i = 0; i < level->count; i++)
+        level->coefficient[i] = field_value(&rkpm->field, (const double[3]){level->x[0][i], level->x[1][i], level->x[2][i]});
+}
+
+/* u^h and its coefficients at the nodes, for output. */
+static void show(struct rkpm *rkpm, struct rkpm_level *level)
+{
+    for (size_t n = 0; n < level->count; n++) {
+        const double x[3] = {level->x[0][n], level->x[1][n], level->x[2][n]};
+        const struct shape_row *row = rkpm_row(rkpm, level, x, GRADIENT_NONE);
+        double value = 0;
+        for (int i = 0; i < row->count; i++)
+            value += row->value[i] * level->coefficient[row->node[i]];
+        rkpm->store->real[COLUMN_COEFFICIENT][0][n] = level->coefficient[n];
+        rkpm->store->real[COLUMN_FIELD][0][n] = value;
+    }
+}
+
+struct instability rkpm_advance(struct rkpm *rkpm)
+{
+    struct rkpm_level *level = &rkpm->levels[rkpm->step++];
+    timers_enter(rkpm->timers, PHASE_SYSTEM);
+    if (rkpm->words->problem == PROBLEM_APPROXIMATION)
+        approximate(rkpm, level);
+    else
+        rkpm_system_solve(rkpm, level);
+    timers_enter(rkpm->timers, PHASE_SUMS);
+    rkpm_measure(rkpm, level);
+    if ((size_t)rkpm->step == rkpm->n_levels)
+        show(rkpm, level);
+    rkpm->updates += (double)level->count;
+    if (!rkpm->instability.is_stopped && !isfinite(level->result.h1)) {
+        rkpm->instability = (struct instability){.is_stopped = true, .particle = -1, .cause = "the solution is not finite",
+                                                 .advice = "take a larger supp"};
+    }
+    timers_enter(rkpm->timers, PHASE_OTHER);
+    return rkpm->instability;
+}
+
+void rkpm_exchange(struct rkpm *rkpm, struct checkpoint *checkpoint)
+{
+    checkpoint_item(checkpoint, "step", &rkpm->step, sizeof rkpm->step, 1);
+    checkpoint_item(checkpoint, "updates", &rkpm->updates, sizeof rkpm->updates, 1);
+    if (checkpoint_is_reading(checkpoint) && checkpoint_is_good(checkpoint) && (rkpm->step < 0 || (size_t)rkpm->step > rkpm->n_levels))
+        checkpoint_reject(checkpoint, "step");
+    for (size_t i = 0; i < rkpm->n_levels; i++)
+        checkpoint_item(checkpoint, "result", &rkpm->levels[i].result, sizeof rkpm->levels[i].result, 1);
+    store_exchange(rkpm->store, checkpoint, 1);
+}
