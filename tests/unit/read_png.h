@@ -132,7 +132,7 @@ static inline bool undo_filters(unsigned char *rows, struct picture *picture)
         if (row[0] > 2)
             return false;
         for (size_t x = 0; x < width; x++) {
-            unsigned before = row[0] == 1 && x >= 3 ? result[x - 3] : row[0] == 2 && y > 0 ? result[x - width] : 0;
+            unsigned before = row[0] == 1 && x >= 3 ? result[x - 3] : row[0] == 2 && y > 0 ? *(result + x - width) : 0;
             result[x] = (unsigned char)(row[x + 1] + before);
         }
     }
