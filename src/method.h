@@ -15,6 +15,7 @@ struct checkpoint;
 struct method {
     const char *name; /* in decks, after `meth` */
     bool is_static;   /* nothing moves: there are no energies, momenta and curves */
+    bool has_grid;    /* a background grid, which the ParaView files show */
     /* Builds the solver of run->scene in run->mpm, run->sph or run->rkpm, and what output sees of it: run->store, run->source.
      * Mistakes that only show now go to run->diagnostics. */
     void (*open)(struct run *run);
@@ -26,7 +27,7 @@ struct method {
     /* Whether there is a further step; whether the last step ended the run for another reason than its time (NULL: never). */
     bool (*goes_on)(const struct run *run);
     bool (*has_ended)(const struct run *run);
-    /* Takes particles that are gone out of run->is_shown. */
+    /* Takes particles that are gone out of run->is_shown, where their state does not tell (NULL: it does). */
     void (*hide_lost)(struct run *run);
     /* Where the n-th particle that left the grid, from 0 on, is in run->store; only of scenes that list them. */
     int32_t (*lost_particle)(const struct run *run, int32_t n);

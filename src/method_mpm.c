@@ -124,6 +124,7 @@ static double updates(const struct run *run)
 
 const struct method method_mpm = {
     .name = "mpm",
+    .has_grid = true,
     .open = open_solver,
     .close = close_solver,
     .advance = advance,

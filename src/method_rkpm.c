@@ -34,12 +34,6 @@ static bool goes_on(const struct run *run)
     return (size_t)run->rkpm->step < run->rkpm->n_levels;
 }
 
-/* Nodes stay where they are. */
-static void hide_lost(struct run *run)
-{
-    (void)run;
-}
-
 static void exchange(struct run *run, struct checkpoint *checkpoint)
 {
     rkpm_exchange(run->rkpm, checkpoint);
@@ -76,7 +70,6 @@ const struct method method_rkpm = {
     .advance = advance,
     .look = look,
     .goes_on = goes_on,
-    .hide_lost = hide_lost,
     .exchange = exchange,
     .start_errors = start_table,
     .write_errors = write_table,

@@ -94,13 +94,6 @@ static bool goes_on(const struct run *run)
     return run->sph->step == 0 || run->sph->time <= run->scene->end_time;
 }
 
-static void hide_lost(struct run *run)
-{
-    for (size_t p = 0; p < run->store->count; p++)
-        if (run->store->integer[COLUMN_STATE][p] == SPH_REMOVED)
-            run->is_shown[run->store->integer[COLUMN_ID][p]] = 0;
-}
-
 static int32_t lost_particle(const struct run *run, int32_t n)
 {
     return run->store->index_of_id[run->sph->removed[n]];
@@ -123,7 +116,6 @@ const struct method method_sph = {
     .advance = advance,
     .look = look,
     .goes_on = goes_on,
-    .hide_lost = hide_lost,
     .lost_particle = lost_particle,
     .exchange = exchange,
     .print_scene = summary_sph_check,

@@ -143,8 +143,7 @@ static void exchange_deck(const struct run *run, struct checkpoint *checkpoint, 
 static void list_tables(const struct run *run, struct table tables[RUN_TABLES])
 {
     const struct history *history = &run->history;
-    const struct table list[RUN_TABLES] = {{.path = run->log_path, .stream = run->log}, run->animation,
-                                           run->method->write_errors ? run->errors : run->lost,
+    const struct table list[RUN_TABLES] = {{.path = run->log_path, .stream = run->log}, run->animation, run->lost, run->errors,
                                            history->curves, history->energy, history->momentum, history->contact};
     memcpy(tables, list, sizeof list);
 }

@@ -141,7 +141,8 @@ static void mark_shown(struct run *run)
                 is_in = is_in && x[a][p] >= body->plot_box[2 * a] && x[a][p] <= body->plot_box[2 * a + 1];
             run->is_shown[store->integer[COLUMN_ID][p]] = is_in;
         }
-    run->method->hide_lost(run);
+    if (run->method->hide_lost)
+        run->method->hide_lost(run);
 }
 
 static enum status write_dump(struct run *run)
@@ -193,7 +194,7 @@ static enum status start_output(struct run *run)
 {
     const struct scene *scene = run->scene;
     run->is_under_way = true;
-    if (scene->writes_vtk && scene->method == METHOD_MPM && !vtk_write_grid(&run->vtk, scene))
+    if (scene->writes_vtk && run->method->has_grid && !vtk_write_grid(&run->vtk, scene))
         return STATUS_FILE;
     if (scene->writes_animation)
         animation_header(&run->animation, scene);

@@ -35,7 +35,7 @@ struct mpm;
 struct sph;
 struct rkpm;
 
-enum { RUN_TABLES = 7 };
+enum { RUN_TABLES = 8 };
 
 struct run {
     struct run_options options;

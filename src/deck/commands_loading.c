@@ -178,7 +178,7 @@ static void read_block(struct reader *reader, const struct deck_word *word, cons
                        const char *end, const char *owner)
 {
     reader_needs(reader, word, "nbbo");
-    reader_block(reader, table, end, owner);
+    reader_block(reader, table, end, owner, NULL);
 }
 
 static void read_loads(struct reader *reader, const struct deck_word *word, const struct value *values)

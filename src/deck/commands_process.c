@@ -64,7 +64,7 @@ void reader_ghosts(struct reader *reader, const struct deck_word *word, const st
     building->has_ghosts = true;
     building->ghost_place = word->place;
     reader_needs(reader, word, "nbmp");
-    reader_block(reader, ghost_keywords, "endG", "Ghost");
+    reader_block(reader, ghost_keywords, "endG", "Ghost", NULL);
 }
 
 /* The number behind `every`. */

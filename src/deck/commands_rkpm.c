@@ -131,7 +131,5 @@ void reader_rkpm(struct reader *reader, const struct deck_word *word, const stru
 {
     (void)values;
     reader->scene->rkpm.place = word->place;
-    const int errors = diagnostics_errors(reader->diagnostics);
-    reader_block(reader, rkpm_keywords, "ends", "rkpm");
-    reader->has_bad_rkpm = diagnostics_errors(reader->diagnostics) > errors;
+    reader->has_bad_rkpm = !reader_block(reader, rkpm_keywords, "ends", "rkpm", reader->rkpm_places);
 }

@@ -292,11 +292,10 @@ const struct keyword solid_keywords[] = {
 bool reader_solid_block(struct reader *reader, struct solid *solid)
 {
     const struct reader_solid outer = reader->block;
-    int errors = diagnostics_errors(reader->diagnostics);
     reader->block = (struct reader_solid){.is_open = true, .solid = solid};
-    reader_block(reader, solid_keywords, "endp", "solid");
+    const bool is_good = reader_block(reader, solid_keywords, "endp", "solid", NULL);
     reader->block = outer;
-    return diagnostics_errors(reader->diagnostics) == errors;
+    return is_good;
 }
 
 void reader_skip_solid(struct reader *reader)

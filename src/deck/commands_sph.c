@@ -346,7 +346,5 @@ void reader_sph(struct reader *reader, const struct deck_word *word, const struc
 {
     (void)values;
     reader->scene->sph.place = word->place;
-    const int errors = diagnostics_errors(reader->diagnostics);
-    reader_block(reader, sph_keywords, "ends", "sph");
-    reader->has_bad_sph = diagnostics_errors(reader->diagnostics) > errors;
+    reader->has_bad_sph = !reader_block(reader, sph_keywords, "ends", "sph", reader->sph_places);
 }

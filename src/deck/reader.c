@@ -519,11 +519,12 @@ static bool command_in_block(struct reader *reader, struct deck_word *word, cons
     return true;
 }
 
-void reader_block(struct reader *reader, const struct keyword *table, const char *end, const char *owner)
+bool reader_block(struct reader *reader, const struct keyword *table, const char *end, const char *owner, struct deck_place *places)
 {
     struct deck_word word;
     char text[SHOWN];
     struct deck_place start = reader->last.place;
+    const int errors = diagnostics_errors(reader->diagnostics);
     bool is_reported = false, is_closed = false;
     reader->depth++;
     while (!is_closed && !reader->ended && text_peek(reader->text, &word)) {
@@ -534,10 +535,8 @@ void reader_block(struct reader *reader, const struct keyword *table, const char
             continue;
         }
         take(reader, &word);
-        if (row && table == sph_keywords)
-            reader->sph_places[row - sph_keywords] = word.place;
-        if (row && table == rkpm_keywords)
-            reader->rkpm_places[row - rkpm_keywords] = word.place;
+        if (row && places)
+            places[row - table] = word.place;
         if (strncasecmp(text, end, 4) == 0)
             is_closed = true;
         else if (row)
@@ -546,11 +545,12 @@ void reader_block(struct reader *reader, const struct keyword *table, const char
             is_closed = unknown_in_block(reader, &word, table, end, owner);
     }
     reader->depth--;
-    if (is_closed || is_reported)
-        return;
-    if (!reader->is_cut)
-        diagnostics_error(reader->diagnostics, start, "the block '%s' is not closed; expected '%s'", owner, end);
-    reader->is_cut = true;
+    if (!is_closed && !is_reported) {
+        if (!reader->is_cut)
+            diagnostics_error(reader->diagnostics, start, "the block '%s' is not closed; expected '%s'", owner, end);
+        reader->is_cut = true;
+    }
+    return diagnostics_errors(reader->diagnostics) == errors;
 }
 
 /* --- the deck --- */

@@ -116,8 +116,9 @@ bool reader_check_id(struct reader *reader, const struct value *value, long coun
 void reader_unknown(struct reader *reader, const struct deck_word *word, const char *kind, const char *nearest,
                     const char *topic);
 
-/* Reads the commands of a sub-block until the word `end`. */
-void reader_block(struct reader *reader, const struct keyword *table, const char *end, const char *owner);
+/* Reads the commands of a sub-block until the word `end`; where each of the table's rows stands goes into places, if not
+ * NULL. Returns whether no error was reported. */
+bool reader_block(struct reader *reader, const struct keyword *table, const char *end, const char *owner, struct deck_place *places);
 
 /* on or off; -1 and an error otherwise. */
 int reader_switch(struct reader *reader, const struct value *value, const char *owner);

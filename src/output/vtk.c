@@ -5,7 +5,6 @@
 #include "base/methods.h"
 #include "base/status.h"
 #include "base/tensor.h"
-#include "sph/state.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -129,18 +128,12 @@ struct shown {
     size_t count;
 };
 
-/* The files of material points show those that left the grid too, as those of MPM3D-F90 do. */
-static bool is_removed(const struct store *store, size_t p)
-{
-    return store_has(store, COLUMN_STATE) && store->integer[COLUMN_STATE][p] == SPH_REMOVED;
-}
-
 static struct shown list_shown(const struct result_source *source)
 {
     const struct store *store = source->store;
     struct shown shown = {source, memory_array(store->count, sizeof *shown.places, "output"), 0};
     for (size_t id = 0; id < store->count; id++)
-        if (result_is_shown(source, (size_t)store->index_of_id[id]) && !is_removed(store, (size_t)store->index_of_id[id]))
+        if (result_is_shown(source, (size_t)store->index_of_id[id]))
             shown.places[shown.count++] = store->index_of_id[id];
     return shown;
 }

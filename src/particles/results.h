@@ -5,6 +5,7 @@
 
 #include "base/methods.h"
 #include "particles/columns.h"
+#include "particles/state.h"
 
 struct material;
 
@@ -27,7 +28,8 @@ static inline bool result_is_closed(const struct result_source *source, size_t p
 /* Whether output shows the particle at place p. */
 static inline bool result_is_shown(const struct result_source *source, size_t p)
 {
-    return source->shows_closed || !result_is_closed(source, p);
+    const int32_t *state = source->store->integer[COLUMN_STATE];
+    return (source->shows_closed || !result_is_closed(source, p)) && !(state && state[p] == SPH_REMOVED);
 }
 
 /* Sums and extremes of all particles that a curve may show. */

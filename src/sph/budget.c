@@ -24,7 +24,7 @@ static double compression_energy(double square, double density, double reference
 static bool is_loose(const struct sph *sph, size_t p)
 {
     static const double LOOSE = 1.5; /* of a particle's own part of the kernel's sum; in a row alone 1.6, at a surface 2.1 */
-    return sph->columns.shepard[p] < LOOSE * sph->columns.volume[p] * sph->self_value;
+    return sph->columns.shepard[p] < LOOSE * sph_own_part(sph, p);
 }
 
 static void add_particle(const struct sph *sph, size_t p, struct sph_portion *sums)
@@ -38,9 +38,9 @@ static void add_particle(const struct sph *sph, size_t p, struct sph_portion *su
     sums->is_finite = sums->is_finite && isfinite(c->temperature[p]);
     if (c->state[p] != SPH_FLUID)
         return;
-    double speed = 0, acceleration = 0;
+    const double speed = sph_square_of_speed(sph, p);
+    double acceleration = 0;
     for (int a = 0; a < 3; a++) {
-        speed += c->v[a][p] * c->v[a][p];
         acceleration += c->a[a][p] * c->a[a][p];
         sums->momentum[a] += mass * c->v[a][p];
     }

@@ -171,8 +171,7 @@ THREADS_INLINE void all_rates(const struct sph *sph, int dimension, bool varies)
  * flies alone has no pressure. */
 static bool is_alone(const struct sph *sph, size_t p)
 {
-    const double self = sph->words->varies_smoothing ? kernel_of(sph->columns.smoothing[p], sph->dimension).value : sph->self_value;
-    return sph->columns.shepard[p] <= sph->columns.volume[p] * self;
+    return sph->columns.shepard[p] <= sph_own_part(sph, p);
 }
 
 void flow_density(struct sph *sph, double time_step)

@@ -2,7 +2,7 @@
 #include "sph/neighbours.h"
 #include "base/memory.h"
 #include "base/threads.h"
-#include "sph/state.h"
+#include "particles/state.h"
 
 #include <math.h>
 #include <string.h>

@@ -46,45 +46,45 @@ void remove_outsiders(struct sph *sph)
 
 /* --- what came off --- */
 
-/* Gives `label` to the particles linked with `a` that have none, and puts them behind the n of the queue; returns how many
- * links there are. */
-static int32_t label_linked(struct sph *sph, size_t a, int32_t label, int32_t *n)
+static bool is_linked(const struct sph *sph, size_t a, size_t b)
 {
-    const struct neighbour_lists *near = &sph->neighbours->near;
-    const double reach = fmin(LINKED * sph->words->wide_smoothing * sph->spacing, 2 * sph->smoothing), square = reach * reach;
-    int32_t *labels = sph->clusters, *queue = sph->clusters + sph->store->count, links = 0;
-    for (int64_t k = near->first[a]; k < near->first[a + 1]; k++) {
-        const size_t b = (size_t)near->list[k];
-        struct pair pair;
-        if (sph->columns.state[b] == SPH_REMOVED)
-            continue;
-        pair_way(sph, a, b, sph->dimension, &pair);
-        if (pair.square >= square)
-            continue;
-        links++;
-        if (labels[b] != UNKNOWN)
-            continue;
-        labels[b] = label;
-        queue[(*n)++] = (int32_t)b;
-    }
-    return links;
+    const double reach = fmin(LINKED * sph->words->wide_smoothing * sph->spacing, 2 * sph->smoothing);
+    struct pair pair;
+    if (sph->columns.state[b] == SPH_REMOVED)
+        return false;
+    pair_way(sph, a, b, sph->dimension, &pair);
+    return pair.square < reach * reach;
 }
 
-/* Gives `label` to particle `start` and all that are linked with it, by way of others; how many they are. A thread of single
- * particles holds nothing: what it leads to gets its label back. */
+/* Whether a particle belongs to a thread of single ones. */
+static bool is_of_thread(const struct sph *sph, size_t a)
+{
+    const struct neighbour_lists *near = &sph->neighbours->near;
+    int links = 0;
+    for (int64_t k = near->first[a]; k < near->first[a + 1] && links < LEAST_LINKS; k++)
+        links += is_linked(sph, a, (size_t)near->list[k]);
+    return sph->columns.state[a] == SPH_FLUID && links < LEAST_LINKS;
+}
+
+/* Gives `label` to particle `start` and all that are linked with it, by way of others; how many they are. A thread holds
+ * nothing: what one leads to is not linked by it. */
 static int32_t label_cluster(struct sph *sph, size_t start, int32_t label)
 {
+    const struct neighbour_lists *near = &sph->neighbours->near;
     int32_t *labels = sph->clusters, *queue = sph->clusters + sph->store->count, n = 0;
     labels[start] = label;
     queue[n++] = (int32_t)start;
     for (int32_t i = 0; i < n; i++) {
         const size_t a = (size_t)queue[i];
-        const int32_t before = n;
-        if (label_linked(sph, a, label, &n) >= LEAST_LINKS || sph->columns.state[a] != SPH_FLUID || i == 0)
+        if (i > 0 && is_of_thread(sph, a))
             continue;
-        for (int32_t k = before; k < n; k++)
-            labels[queue[k]] = UNKNOWN;
-        n = before;
+        for (int64_t k = near->first[a]; k < near->first[a + 1]; k++) {
+            const size_t b = (size_t)near->list[k];
+            if (labels[b] != UNKNOWN || !is_linked(sph, a, b))
+                continue;
+            labels[b] = label;
+            queue[n++] = (int32_t)b;
+        }
     }
     return n;
 }

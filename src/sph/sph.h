@@ -23,7 +23,7 @@
 #include "material/properties.h"
 #include "sph/kernel.h"
 #include "sph/neighbours.h"
-#include "sph/state.h"
+#include "particles/state.h"
 
 struct sph;
 
@@ -183,6 +183,13 @@ static inline double sph_square_of_speed(const struct sph *sph, size_t p)
     return square;
 }
 
+/* A particle's own part of the kernel's sum (shepard): all of it where it has no neighbour. */
+static inline double sph_own_part(const struct sph *sph, size_t p)
+{
+    const struct sph_columns *c = &sph->columns;
+    return c->volume[p] * (sph->words->varies_smoothing ? kernel_of(c->smoothing[p], sph->dimension).value : sph->self_value);
+}
+
 /* Points the columns of `sph` at those of the store; after each sorting. */
 void sph_bind(struct sph *sph);
 
@@ -190,6 +197,8 @@ void sph_bind(struct sph *sph);
 
 /* From temperature (or the start): reference density with its swelling, viscosity, conductivity (heat.c). */
 void heat_properties(struct sph *sph);
+/* The density without pressure at the temperature of a particle, at a time (for swelling). */
+double heat_reference_density(const struct sph *sph, size_t p, double time);
 
 void flow_prepare(struct sph *sph);   /* seen velocities, fluid volumes, excess */
 void flow_surroundings(struct sph *sph); /* what walls and solids are beside */

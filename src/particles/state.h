@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a smoothed particle is (COLUMN_STATE). */
-#ifndef SPH_STATE_H
-#define SPH_STATE_H
+#ifndef PARTICLES_STATE_H
+#define PARTICLES_STATE_H
 
 enum sph_state {
     SPH_FLUID,   /* moves; liquid or mushy */
