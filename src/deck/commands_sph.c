@@ -77,6 +77,14 @@ static void read_evaporation(struct reader *reader, const struct deck_word *word
     reader->scene->sph.evaporates = true;
 }
 
+static void read_ejected(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    static const char *const names[] = {"thru", NULL};
+    (void)word;
+    (void)values;
+    reader->scene->sph.lets_beam_through = reader_optional(reader, names) == 0;
+}
+
 static void read_jitter(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     static const char *const names[] = {"soli", NULL};
@@ -305,8 +313,9 @@ const struct keyword sph_keywords[] = {
     {.name = "mush", .arguments = LIST(NUMBER("drag", "1/time", LIMIT_NOT_NEGATIVE)), .field = FIELD(mush_drag),
      .doc = "drag of the mush K0 (1 - s)^2/(s^3 + 0.001), s liquid fraction; 0: none (0)"},
     {.name = "ejec", .long_name = "ejected", .arguments = LIST(NUMBER("T", "temperature", LIMIT_NOT_NEGATIVE)), .field = FIELD(ejected_above),
-     .doc = "drops that came off the metal are removed when they are hotter than this, with their heat: they would only shade it; 0: none "
-            "(0; 6000 in the dissertation)"},
+     .apply = read_ejected,
+     .doc = "what came off the metal tears where it would be pulled, and is removed when it is hotter than this, with its heat; with `thru` behind it the beam goes through what came off, which in a slice "
+            "would shade all that is below; 0: nothing of this (0; 6000 in the dissertation)"},
     {.name = "base", .arguments = LIST(LENGTH("height")), .field = FIELD(base),
      .doc = "height of the surface below which penetration (curv pene) is measured (0)"},
     {.name = "jitt", .long_name = "jitter",

@@ -115,6 +115,8 @@ static void echo_word(const struct scene *scene, const struct keyword *row, FILE
         echo_numbers(stream, (const double *)(const void *)field, 1);
     if (strcmp(row->name, "delt") == 0)
         fprintf(stream, "%s%s", scene->sph.diffuses_gradient ? " grad" : "", scene->sph.diffuses_reference ? " dens" : "");
+    if (strcmp(row->name, "ejec") == 0 && scene->sph.lets_beam_through)
+        fprintf(stream, " thru");
     fputc('\n', stream);
 }
 

@@ -61,6 +61,7 @@ enum column {
     COLUMN_LAYER,
     COLUMN_STATE,
     COLUMN_FUSED,
+    COLUMN_PARTED,
     COLUMN_COUNT
 };
 

@@ -188,6 +188,11 @@ static double fused(const struct result_source *s, size_t p)
     return s->store->integer[COLUMN_FUSED][p];
 }
 
+static double parted(const struct result_source *s, size_t p)
+{
+    return s->store->integer[COLUMN_PARTED][p];
+}
+
 static const struct result rows[] = {
     {.name = "seqv", .methods = METHODS_MPM, .unit = "stress", .doc = "von Mises stress", .value = von_mises},
     {.name = "seqt", .methods = METHODS_MPM, .unit = "stress", .doc = "von Mises stress of the total: with the residual stress of resi taken off",
@@ -235,6 +240,8 @@ static const struct result rows[] = {
     {.name = "liqu", .doc = "liquid fraction", SPH, .columns = {COLUMN_LIQUID}, .value = liquid},
     {.name = "fuse", .doc = "1 where it has been melt, at least half liquid, since the start; with heat", .is_integer = true, SPH,
      .columns = {COLUMN_FUSED}, .value = fused},
+    {.name = "part", .doc = "1 where it came off, and hangs together with no metal any more; with ejec", .is_integer = true,
+     SPH, .columns = {COLUMN_PARTED}, .value = parted},
     {.name = "enth", .unit = "energy/mass", .doc = "specific enthalpy, 0 at 293; with heat", SPH, .columns = {COLUMN_ENTHALPY},
      .value = enthalpy},
     {.name = "kapp", .unit = "1/length", .doc = "curvature of the surface, positive on a drop; with csf", SPH,

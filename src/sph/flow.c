@@ -167,11 +167,15 @@ THREADS_INLINE void all_rates(const struct sph *sph, int dimension, bool varies)
             rate_of(sph, p, dimension, varies);
 }
 
-/* Whether a particle has no neighbour. The way there has left it a density of its own part of the kernel's sum, but what
- * flies alone has no pressure. */
-static bool is_alone(const struct sph *sph, size_t p)
+/* A density from the continuity equation. What flies alone has no pressure, whatever the way there has left it; what
+ * came off the metal tears where it would be pulled. */
+static double density_of(const struct sph *sph, size_t p, double density)
 {
-    return sph->columns.shepard[p] <= sph_own_part(sph, p);
+    const struct sph_columns *c = &sph->columns;
+    const double rest = sph_rest_density(c, p);
+    if (c->shepard[p] <= sph_own_part(sph, p))
+        return rest;
+    return c->parted && c->parted[p] && density < rest ? rest : density;
 }
 
 void flow_density(struct sph *sph, double time_step)
@@ -185,7 +189,7 @@ void flow_density(struct sph *sph, double time_step)
         if (c->state[p] != SPH_FLUID)
             continue;
         c->shepard[p] = sph->work[0][p];
-        c->density[p] = is_alone(sph, p) ? sph_rest_density(c, p) : c->density[p] + time_step * sph->rate[p];
+        c->density[p] = density_of(sph, p, c->density[p] + time_step * sph->rate[p]);
         c->volume[p] = c->mass[p] / c->density[p];
         c->pressure[p] = square * (c->density[p] - sph_rest_density(c, p));
         if (sph->words->varies_smoothing)

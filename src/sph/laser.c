@@ -137,6 +137,8 @@ static int32_t base_of_particle(const struct sph_march *march, const struct sph 
     double way;
     if (sph->columns.state[p] != SPH_FLUID && sph->columns.state[p] != SPH_SOLID)
         return -1;
+    if (sph->words->lets_beam_through && sph->columns.parted && sph->columns.parted[p])
+        return -1;
     if (!(fabs(sph->columns.x[march->lateral][p]) < FARTHEST * march->cell))
         return -1;
     for (int a = 0; a < march->lateral; a++)

@@ -60,6 +60,8 @@ static uint64_t wanted_columns(const struct scene *scene)
         wanted |= column_bit(COLUMN_OPENED);
     if (words->beam.is_on)
         wanted |= column_bit(COLUMN_LASER_POWER);
+    if (words->ejected_above > 0)
+        wanted |= column_bit(COLUMN_PARTED);
     if (words->diffuses_gradient)
         wanted |= column_bit(COLUMN_EXCESS_GRADIENT);
     if (scene->writes_vtk)
@@ -250,6 +252,7 @@ void sph_bind(struct sph *sph)
     sph->columns.state = store->integer[COLUMN_STATE];
     sph->columns.body = store->integer[COLUMN_BODY];
     sph->columns.fused = store->integer[COLUMN_FUSED];
+    sph->columns.parted = sph->words->ejected_above > 0 ? store->integer[COLUMN_PARTED] : NULL;
 }
 
 /* --- numbers --- */

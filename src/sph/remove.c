@@ -129,11 +129,14 @@ long sph_detached(struct sph *sph)
 
 void remove_ejected(struct sph *sph)
 {
+    const struct sph_columns *c = &sph->columns;
     const double hottest = sph->words->ejected_above;
-    if (!(hottest > 0) || sph->step % LOOK_STEPS != 0 || sph->budget.hottest <= hottest)
+    if (!c->parted || sph->step % LOOK_STEPS != 0 || !(sph->budget.fastest > 0))
         return;
     const int32_t main = find_clusters(sph);
-    for (size_t p = 0; p < sph->store->count; p++)
-        if (sph->columns.state[p] == SPH_FLUID && sph->clusters[p] != main && sph->columns.temperature[p] > hottest)
+    for (size_t p = 0; p < sph->store->count; p++) {
+        c->parted[p] = c->state[p] == SPH_FLUID && sph->clusters[p] != main;
+        if (c->parted[p] && c->temperature[p] > hottest)
             remove_particle(sph, p);
+    }
 }

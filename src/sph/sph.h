@@ -47,6 +47,7 @@ struct sph_columns {
     double *wide_normal[3], *wide_shepard, *curvature;
     double *temperature, *enthalpy, *liquid, *conductivity, *heat_rate, *laser_power; /* NULL without heat (and beam) */
     int32_t *state, *body, *fused; /* the last NULL where nothing asks for it */
+    int32_t *parted;               /* NULL without ejec */
 };
 
 /* The density at which a particle has no pressure. */
@@ -220,7 +221,8 @@ void heat_free(struct sph *sph);
 double heat_loss_rate(const struct sph *sph, size_t p);
 void laser_free(struct sph *sph);
 
-/* Takes out fluid that left the grid; fluid that came off the metal and is hotter than the deck's limit (remove.c). */
+/* Takes out fluid that left the grid; finds what came off the metal, and takes out of it what is hotter than the deck's
+ * limit (remove.c). */
 void remove_outsiders(struct sph *sph);
 void remove_ejected(struct sph *sph);
 

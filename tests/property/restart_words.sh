@@ -79,7 +79,7 @@ compare "smoothed particles: heat" coverage/plates.mpm ""
 sed '/^dtfx/d; s/^sph/sph hrat 1.3 hsra 1.9 cfl 0.3 delt 0.1 grad jitt 0.02 7 vsmo on shif 0.2 csfe 0.2 latc on vhea on powe 1e9 redu 6800 \
     swel 1 cycl 0.01 1e4 stre 1 1 1 0.98/' coverage/sph_beam.mpm >coverage/beam.mpm
 compare "smoothed particles: a beam, and what goes with it" coverage/beam.mpm ""
-sed '/^dtfx/d; s/^sph/sph pgra shep visc morr inte thes tens on/; s/csf bala/csf thes dept off film off expa off ejec 5000/; s/heat enth/heat appa/; s/rela on/mref start mcfa 0.2/' \
+sed '/^dtfx/d; s/^sph/sph pgra shep visc morr inte thes tens on/; s/csf bala/csf thes dept off film off expa off ejec 5000 thru/; s/heat enth/heat appa/; s/rela on/mref start mcfa 0.2/' \
     coverage/sph_beam.mpm >coverage/thesis.mpm
 compare "smoothed particles: a beam, of the dissertation" coverage/thesis.mpm ""
 sed '/^dtfx/d; s/^sph/sph pgra sym visc mg swel 1 rate 1e3/; s/c0 10/c0 auto/; s/wall 3 temp 1600/wall 3 velo 1 0 0 adia nost/; s/beam 50 1e-4 0.3/beam 50 1e-4 0 alpha 2e4 slic bins 1.5/

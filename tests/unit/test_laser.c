@@ -155,6 +155,28 @@ static void test_absorptivity(void)
     fixture_close(fixture);
 }
 
+/* What came off is not hit where the deck says so: the layer below the one that is off has what is the top's without. */
+static void test_through(void)
+{
+    static int32_t parted[WIDE * LAYERS];
+    struct fixture *fixture = open_slab(2, LAYERS);
+    struct sph_columns *c = &fixture->sph.columns;
+    double top[2] = {0};
+    fixture->words.lets_beam_through = true;
+    for (int i = 0; i < 2; i++) {
+        laser_deposit(&fixture->sph);
+        for (size_t p = 0; p < fixture->sph.store->count; p++) {
+            const int layer = LAYERS - 1 - (int)(c->x[1][p] / SPACING);
+            top[i] += layer == i ? c->laser_power[p] : 0;
+            parted[p] = layer == 0;
+        }
+        c->parted = parted;
+    }
+    check_near("through: the next layer has it", top[1] / top[0], 1, 1e-12);
+    check_balance("through", fixture);
+    fixture_close(fixture);
+}
+
 /* A beam beside the slab goes by: half of it at an edge. */
 static void test_beside(void)
 {
@@ -213,6 +235,7 @@ int main(void)
         test_heap(dimension, 1.7);
     }
     test_absorptivity();
+    test_through();
     test_beside();
     test_pulse();
     return check_result();
