@@ -67,7 +67,7 @@ static bool read_elements(struct reader *reader, struct material *material)
             return false;
         material->elements = memory_grow(material->elements, &material->elements_capacity, (size_t)i + 1, sizeof *material->elements,
                                          "elements");
-        material->elements[material->n_elements++] = (struct law_element){.young = values[0].real, .time = values[1].real};
+        material->elements[material->n_elements++] = (struct law_element){.strength = values[0].real, .time = values[1].real};
     }
     return true;
 }

@@ -148,7 +148,7 @@ static void echo_elements(const struct material *material, FILE *stream)
         return;
     fprintf(stream, " %d", material->n_elements);
     for (int i = 0; i < material->n_elements; i++)
-        echo_numbers(stream, (const double[]){material->elements[i].young, material->elements[i].time}, 2);
+        echo_numbers(stream, (const double[]){material->elements[i].strength, material->elements[i].time}, 2);
     for (int i = 0; material->law->words[i]; i++)
         if (material->words >> i & 1)
             fprintf(stream, " %s", material->law->words[i]);
