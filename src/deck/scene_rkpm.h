@@ -10,6 +10,9 @@
 
 enum basis_form { BASIS_LINEAR, BASIS_BILINEAR, BASIS_QUADRATIC };
 enum gradient_form { GRADIENT_DIRECT, GRADIENT_IMPLICIT, GRADIENT_NONE };
+/* Where the domain is integrated: Gauss points of cells, or the nodes (spec rkpm 3): directly, with gradients smoothed over
+ * boxes that don't fit together (snni), with gradients' gradients (nsni). */
+enum integration_form { INTEGRATION_GAUSS, INTEGRATION_DNI, INTEGRATION_SNNI, INTEGRATION_NSNI };
 enum rkpm_problem { PROBLEM_APPROXIMATION, PROBLEM_HELMHOLTZ, PROBLEM_POISSON };
 
 /* Exact solutions: product of sines, exponential of the product of coordinates, sine wave that is 1 at the low end and 0 at
