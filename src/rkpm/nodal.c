@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { AXES = 3, TERMS = 1 + AXES, FEW_NODES = 200 }; /* below these one thread is faster */
+enum { AXES = 3, TERMS = 1 + AXES, FEW_NODES = 200, LANES = 4 }; /* below these nodes one thread is faster */
 
 /* Numbers per neighbour: its place; at the point that is looked at its scaled offset, its kernel and the kernel's slopes; the
  * shape functions at two points. */
@@ -75,7 +75,7 @@ THREADS_INLINE void gather_places(const struct nodal *nodal, size_t node, struct
 
 /* --- shape functions at a point --- */
 
-/* Offsets, kernels and, where they are wanted, slopes. */
+/* Offsets, kernels and, where they are wanted, slopes; zeros behind them, up to a whole number of lanes. */
 THREADS_INLINE void set_kernels(const struct nodal *nodal, const double point[AXES], double reach, int n, bool wants_slopes,
                                 struct nodal_scratch *scratch, const int d)
 {
@@ -93,6 +93,11 @@ THREADS_INLINE void set_kernels(const struct nodal *nodal, const double point[AX
     }
     for (int k = 0; k < n; k++)
         kernel[k] = kernel[k] > MOMENTS_LEAST_KERNEL ? kernel[k] : 0;
+    for (int k = n; k % LANES != 0; k++) {
+        kernel[k] = 0;
+        for (int a = 0; a < d; a++)
+            scratch->xi[a][k] = scratch->slope[a][k] = 0;
+    }
     for (int a = 0; a < d && wants_slopes; a++) {
         const double *restrict place = scratch->place[a];
         double *restrict slope = scratch->slope[a];
@@ -105,22 +110,43 @@ THREADS_INLINE void set_kernels(const struct nodal *nodal, const double point[AX
     }
 }
 
+/* sum a b w in LANES partial sums, the same for every processor. */
+THREADS_INLINE double sum_product(const double *restrict a, const double *restrict b, const double *restrict w, int n)
+{
+    double sum[LANES] = {0};
+    for (int k = 0; k < n; k += LANES)
+        for (int i = 0; i < LANES; i++)
+            sum[i] += a[k + i] * b[k + i] * w[k + i];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+THREADS_INLINE double sum_weight(const double *restrict a, const double *restrict w, int n)
+{
+    double sum[LANES] = {0};
+    for (int k = 0; k < n; k += LANES)
+        for (int i = 0; i < LANES; i++)
+            sum[i] += a[k + i] * w[k + i];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+THREADS_INLINE double sum_all(const double *restrict w, int n)
+{
+    double sum[LANES] = {0};
+    for (int k = 0; k < n; k += LANES)
+        for (int i = 0; i < LANES; i++)
+            sum[i] += w[k + i];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
 /* sum H H^T w, the lower half. */
 THREADS_INLINE void sum_moments(const struct nodal_scratch *scratch, const double *weight, int n, double *matrix, int row, const int d)
 {
-    double sum[TERMS][TERMS] = {{0}};
-    for (int k = 0; k < n; k++) {
-        double h[TERMS];
-        h[0] = 1;
-        for (int a = 0; a < d; a++)
-            h[1 + a] = scratch->xi[a][k];
-        for (int i = 0; i <= d; i++)
-            for (int j = 0; j <= i; j++)
-                sum[i][j] += h[i] * h[j] * weight[k];
-    }
-    for (int i = 0; i <= d; i++)
+    matrix[0] = sum_all(weight, n);
+    for (int i = 0; i < d; i++) {
+        matrix[(1 + i) * row] = sum_weight(scratch->xi[i], weight, n);
         for (int j = 0; j <= i; j++)
-            matrix[i * row + j] = sum[i][j];
+            matrix[(1 + i) * row + 1 + j] = sum_product(scratch->xi[i], scratch->xi[j], weight, n);
+    }
 }
 
 /* M of the kernels, factored; false where nodes are too few. */
