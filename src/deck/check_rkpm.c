@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What only the whole block of rkpm shows: words that are missing or need others, nodes, supports. */
 #include "base/memory.h"
+#include "deck/commands_dynamic.h"
 #include "deck/commands_rkpm.h"
 
 #include <limits.h>
@@ -61,6 +62,21 @@ static void check_needs(struct reader *reader)
             diagnostics_error(reader->diagnostics, place_of(reader, rkpm->function == FUNCTION_WAVE ? "func" : "prob"),
                               "the wave number is not given; expected 'wave k'");
     }
+}
+
+/* Words of motion in time. */
+static void check_dynamic_words(struct reader *reader)
+{
+    static const char *const words[] = {"mode", "star", "spin", "grav", "wall", "stab", NULL};
+    const struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    for (int i = 0; words[i]; i++)
+        if (was_given(reader, words[i]))
+            diagnostics_error(reader->diagnostics, place_of(reader, words[i]), "'%s' needs 'prob dynamic'", words[i]);
+    if (rkpm->dynamic.has_lattice)
+        diagnostics_error(reader->diagnostics, place_of(reader, "node"), "'node %s' needs 'prob dynamic'; expected 'node box'",
+                          rkpm->dynamic.lattice.dimension == 2 ? "disc" : "sphere");
+    if (rkpm->integration != INTEGRATION_GAUSS)
+        diagnostics_error(reader->diagnostics, place_of(reader, "inte"), "'inte' other than gauss needs 'prob dynamic'");
 }
 
 /* --- nodes --- */
@@ -197,7 +213,16 @@ void reader_finish_rkpm(struct reader *reader)
         diagnostics_error(reader->diagnostics, reader->method_place, "'meth rkpm' needs its block; expected 'rkpm ... ends'");
         return;
     }
-    if (reader->has_bad_rkpm || !check_missing(reader))
+    if (reader->has_bad_rkpm)
+        return;
+    if (rkpm->problem == PROBLEM_DYNAMIC) {
+        reader_finish_dynamic(reader);
+        if (was_given(reader, "supp"))
+            check_support(reader);
+        return;
+    }
+    check_dynamic_words(reader);
+    if (!check_missing(reader))
         return;
     check_needs(reader);
     check_support(reader);

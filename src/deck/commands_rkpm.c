@@ -2,6 +2,7 @@
 /* The block of rkpm: nodes, shape functions, the problem and how its boundary is held. */
 #include "deck/commands_rkpm.h"
 #include "base/memory.h"
+#include "deck/commands_dynamic.h"
 
 #include <stddef.h>
 
@@ -16,7 +17,9 @@ _Static_assert(sizeof(enum basis_form) == sizeof(int), "choices are stored as in
 static const char *const bases[] = {[BASIS_LINEAR] = "linear", [BASIS_BILINEAR] = "bilinear", [BASIS_QUADRATIC] = "quad", NULL};
 static const char *const gradients[] = {[GRADIENT_DIRECT] = "direct", [GRADIENT_IMPLICIT] = "implicit", NULL};
 static const char *const problems[] = {[PROBLEM_APPROXIMATION] = "approx", [PROBLEM_HELMHOLTZ] = "helmholtz",
-                                       [PROBLEM_POISSON] = "poisson", NULL};
+                                       [PROBLEM_POISSON] = "poisson", [PROBLEM_DYNAMIC] = "dynamic", NULL};
+static const char *const integrations[] = {[INTEGRATION_GAUSS] = "gauss", [INTEGRATION_DNI] = "dni", [INTEGRATION_SNNI] = "snni",
+                                           [INTEGRATION_NSNI] = "nsni", NULL};
 static const char *const functions[] = {[FUNCTION_SINE] = "sine", [FUNCTION_EXPONENTIAL] = "expo",
                                         [FUNCTION_WAVE] = "wave", [FUNCTION_LINEAR] = "line", NULL};
 static const char *const constraints[] = {[CONSTRAINT_TRANSFORMATION] = "tran", [CONSTRAINT_LAGRANGE] = "lagr",
@@ -46,15 +49,20 @@ static void read_support(struct reader *reader, const struct deck_word *word, co
 /* How many numbers there are is looked at when the dimension is known. */
 static void read_nodes(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
-    static const char *const kinds[] = {"box", NULL};
+    static const char *const kinds[] = {"box", "disc", "sphere", NULL};
     static const struct argument number[] = {NUMBER("number", NULL, LIMIT_NONE), {0}};
     struct scene_rkpm *rkpm = &reader->scene->rkpm;
     struct value value;
-    (void)word;
     (void)values;
     rkpm->n_box = 0;
-    if (reader_optional(reader, kinds) < 0) {
-        reader_expect(reader, "node", "'box x0 x1 ... nx ...'");
+    rkpm->dynamic.has_lattice = false;
+    const int kind = reader_optional(reader, kinds);
+    if (kind < 0) {
+        reader_expect(reader, "node", "'box x0 x1 ... nx ...', 'disc x y radius spacing' or 'sphere x y z radius spacing'");
+        return;
+    }
+    if (kind > 0) {
+        reader_lattice(reader, kind + 1, word->place);
         return;
     }
     while (rkpm->n_box < RKPM_BOX && read_next(reader, number, "node box", &value)) {
@@ -93,7 +101,8 @@ const struct keyword rkpm_keywords[] = {
      .doc = "dimensions (2)"},
     {.name = "node", .apply = read_nodes,
      .doc = "`node box x0 x1 [y0 y1 [z0 z1]] nx [ny [nz]]`: a box and the numbers of nodes along its axes, those on its boundary "
-            "included; as many axes as dimensions"},
+            "included; as many axes as dimensions. Of dynamic `node disc x y radius spacing` or `node sphere x y z radius spacing`: the points "
+            "inside of a square or cubic lattice whose centre is between points"},
     {.name = "refi", .long_name = "refine", .arguments = LIST({"nx", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}), .apply = read_refinements,
      .doc = "the problem is solved with each of these numbers of nodes along x, one after another, and those along the other axes in "
             "proportion; the results are those of the last one. Without it once, as `node` says"},
@@ -104,9 +113,10 @@ const struct keyword rkpm_keywords[] = {
             "good ones"},
     {.name = "grad", .long_name = "gradient", .arguments = WORD("direct|implicit"), .choice = CHOICE(gradients, gradient),
      .doc = "gradients of shape functions: their own (direct, default), or those that reproduce gradients of the basis (implicit)"},
-    {.name = "prob", .long_name = "problem", .arguments = WORD("approx|helmholtz|poisson"), .choice = CHOICE(problems, problem),
+    {.name = "prob", .long_name = "problem", .arguments = WORD("approx|helmholtz|poisson|dynamic"), .choice = CHOICE(problems, problem),
      .doc = "the function itself, from its values at the nodes (approx); div grad u + k^2 u = f (helmholtz); div grad u = f (poisson): f and "
-            "the values at the boundary are those of the function"},
+            "the values at the boundary are those of the function; a body that moves in time (dynamic): with mate, endt and curv. Words that are of "
+            "dynamic alone: inte but gauss, mode, star, spin, grav, wall, stab"},
     {.name = "func", .long_name = "function", .arguments = WORD("sine|expo|wave|line"), .choice = CHOICE(functions, function),
      .doc = "exact solution: sin x sin y sin z (sine), exp(x y z) (expo), sin k(x1 - x)/sin k(x1 - x0) with the wave number and ends of the box "
             "(wave), 1 + x + 2 y + 3 z (line); y and z as far as there are dimensions"},
@@ -123,6 +133,24 @@ const struct keyword rkpm_keywords[] = {
             "multipliers (lagr), by a penalty (pena), by Nitsche's method (nits)"},
     {.name = "beta", .arguments = LIST(NUMBER("beta", NULL, LIMIT_POSITIVE)), .field = FIELD(beta), .apply = read_beta,
      .doc = "factor of pena and nits; with `/h` behind it over the smallest spacing (100 /h)"},
+    {.name = "inte", .long_name = "integration", .arguments = WORD("gauss|dni|snni|nsni"), .choice = CHOICE(integrations, integration),
+     .doc = "where the body is integrated: at Gauss points of cells (gauss, default), or at the nodes, directly (dni), with gradients smoothed "
+            "over boxes around them (snni), or with gradients of gradients that stabilise (nsni)"},
+    {.name = "mode", .arguments = WORD("lagrangian|semi"), .choice = CHOICE(reader_kernel_modes, dynamic.mode),
+     .doc = "shape functions of the nodes' places at the start (lagrangian, default), or of those of now (semi), made anew in each step"},
+    {.name = "star", .long_name = "start", .arguments = LIST(NUMBER("vx", "length/time", LIMIT_NONE), NUMBER("vy", "length/time", LIMIT_NONE)),
+     .apply = reader_start_velocity, .doc = "velocity at the start, `star vx vy [vz]`"},
+    {.name = "spin", .arguments = LIST(NUMBER("omega", "1/time", LIMIT_NONE)), .field = FIELD(dynamic.spin),
+     .doc = "angular velocity at the start about z through the centre of the nodes"},
+    {.name = "grav", .long_name = "gravity", .arguments = LIST(NUMBER("gx", "length/time^2", LIMIT_NONE), NUMBER("gy", "length/time^2", LIMIT_NONE)),
+     .apply = reader_rkpm_gravity, .doc = "gravity, `grav gx gy [gz]`"},
+    {.name = "wall", .apply = reader_rkpm_wall,
+     .doc = "`wall spring axis position modulus [free|stick]`: a plane below the body, with a spring at each node that is nearer than half a "
+            "spacing; its pressure is modulus times depth; nodes slide, or stick while they touch. `wall natural axis position [keep]`, with "
+            "mode semi: three layers of nodes that don't move, which take part in the approximation and carry stress; they let a body go when "
+            "they pull at it and it moves away (keep: they don't)"},
+    {.name = "stab", .long_name = "stabilisation", .arguments = LIST(NUMBER("factor", NULL, LIMIT_NOT_NEGATIVE)), .field = FIELD(dynamic.stabilisation),
+     .doc = "factor of the moduli in what stabilises nsni (1; 0.1 with oldr and powl)"},
     {0}};
 
 _Static_assert(sizeof rkpm_keywords / sizeof *rkpm_keywords <= READER_WORDS, "reader.rkpm_places has room for all words of rkpm");

@@ -3,6 +3,7 @@
 #ifndef DECK_SCENE_RKPM_H
 #define DECK_SCENE_RKPM_H
 
+#include "deck/scene_dynamic.h"
 #include "deck/text.h"
 
 #include <stdbool.h>
@@ -13,7 +14,7 @@ enum gradient_form { GRADIENT_DIRECT, GRADIENT_IMPLICIT, GRADIENT_NONE };
 /* Where the domain is integrated: Gauss points of cells, or the nodes (spec rkpm 3): directly, with gradients smoothed over
  * boxes that don't fit together (snni), with gradients' gradients (nsni). */
 enum integration_form { INTEGRATION_GAUSS, INTEGRATION_DNI, INTEGRATION_SNNI, INTEGRATION_NSNI };
-enum rkpm_problem { PROBLEM_APPROXIMATION, PROBLEM_HELMHOLTZ, PROBLEM_POISSON };
+enum rkpm_problem { PROBLEM_APPROXIMATION, PROBLEM_HELMHOLTZ, PROBLEM_POISSON, PROBLEM_DYNAMIC };
 
 /* Exact solutions: product of sines, exponential of the product of coordinates, sine wave that is 1 at the low end and 0 at
  * the high one, linear function. */
@@ -28,6 +29,7 @@ struct scene_rkpm {
     long dimension;
     enum basis_form basis;
     enum gradient_form gradient;
+    enum integration_form integration;
     double support[3];    /* a: support radius over the spacing, by axis */
     int n_support;        /* numbers given: 0, 1 (of all axes) or as many as axes */
     double box[6];        /* x0 x1 y0 y1 z0 z1 */
@@ -47,6 +49,7 @@ struct scene_rkpm {
     enum constraint_form constraint;
     double beta;          /* of penalty and Nitsche's method */
     bool beta_over_spacing;
+    struct scene_dynamic dynamic;
     struct deck_place place; /* of the word rkpm */
 };
 

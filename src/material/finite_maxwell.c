@@ -132,7 +132,7 @@ static void update(const struct law_batch *batch)
 
 const struct law law_fmax = {
     .name = "fmax",
-    .methods = METHODS_MPM | METHODS_RKPM,
+    .methods = METHODS_MPM | METHODS_DYNAMIC,
     .doc = "generalised Maxwell viscoelasticity of finite strains, neo-Hookean at once: a spring, young at long times, and n elements of a "
            "modulus and a relaxation time, all with one Poisson's ratio. Without a spring it is good for moderate strains, and no fluid: "
            "in steady shear its stress grows with the strain. Behind them: midpoint, a rule of the step in place of the exponential one",
@@ -147,6 +147,7 @@ const struct law law_fmax = {
     .history = HISTORY_ELEMENTS,
     .columns = {COLUMN_NONE},
     .follows_time = true,
+    .stabilisation = 1,
     .viscous_work = 1,
     .prepare = prepare,
     .update = update,

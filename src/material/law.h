@@ -91,6 +91,7 @@ struct law {
     bool rotates;           /* the old stress is rotated before the update (spec 6.3) */
     bool needs_eos;         /* pressure and energy come from an equation of state (spec 6.7) */
     bool keeps_equivalent;  /* writes the column of the von Mises stress itself */
+    double stabilisation;   /* factor of the moduli in what stabilises integration at nodes (spec rkpm 7) */
     double viscous_work;    /* how often the viscous work is counted (spec 6.6; 8.1 john) */
     const char *later;      /* not NULL: known word without its feature; says what is missing */
     /* Derives the fields of a material from its parameters. Returns NULL, or what is wrong. */

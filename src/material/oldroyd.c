@@ -107,7 +107,7 @@ static void update(const struct law_batch *batch)
 
 const struct law law_oldr = {
     .name = "oldr",
-    .methods = METHODS_MPM | METHODS_RKPM,
+    .methods = METHODS_MPM | METHODS_DYNAMIC,
     .doc = "Oldroyd-B fluid with equation of state p = density sound^2/7 ((rho/density)^7 - 1): a solvent of a viscosity, 0 for an "
            "upper-convected Maxwell fluid, and n polymers of a viscosity and a relaxation time. Behind them a rule of the step: strang "
            "(default), lie, or exponential, which is right also where steps are long against the relaxation time. `meth mpm` does not limit "
@@ -123,6 +123,7 @@ const struct law law_oldr = {
     .history = HISTORY_ELEMENTS,
     .columns = {COLUMN_NONE},
     .follows_time = true,
+    .stabilisation = 0.1,
     .viscous_work = 1,
     .prepare = prepare,
     .update = update,

@@ -38,7 +38,7 @@ static void update(const struct law_batch *batch)
 
 const struct law law_powl = {
     .name = "powl",
-    .methods = METHODS_MPM | METHODS_RKPM,
+    .methods = METHODS_MPM | METHODS_DYNAMIC,
     .doc = "power law fluid with equation of state p = density sound^2/7 ((rho/density)^7 - 1): its viscosity is K times the shear rate to "
            "the power of n - 1; below a rate of 1e-6 it is that of 1e-6. `meth mpm` does not limit the time step by it: keep dtfx below about cell^2 density/(8 "
            "viscosity), of the largest one",
@@ -50,6 +50,7 @@ const struct law law_powl = {
     .history = 1,
     .columns = {COLUMN_NONE},
     .follows_time = true,
+    .stabilisation = 0.1,
     .viscous_work = 1,
     .prepare = prepare,
     .update = update,

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From the scene to nodes with room for all that their motion needs. */
+#include "base/memory.h"
+#include "rkpm/dynamic.h"
+
+#include <math.h>
+
+/* --- nodes --- */
+
+static void create_nodes(struct dynamic *dynamic)
+{
+    const struct ball_lattice *lattice = &dynamic->words->dynamic.lattice;
+    dynamic->count = (size_t)dynamic->scene->n_particles;
+    dynamic->spacing = lattice->spacing;
+    dynamic->volume = lattice_volume(lattice) / (double)dynamic->count;
+    dynamic->mass = dynamic->material->density * dynamic->volume;
+    for (int a = 0; a < 3; a++)
+        dynamic->rest[a] = memory_array(dynamic->count, sizeof(double), "nodes");
+    lattice_points(lattice, dynamic->rest);
+    dynamic->volumes = memory_array(dynamic->count, sizeof(double), "nodes");
+    for (size_t n = 0; n < dynamic->count; n++)
+        dynamic->volumes[n] = dynamic->volume;
+}
+
+static void create_store(struct dynamic *dynamic)
+{
+    static const enum column columns[] = {COLUMN_POSITION, COLUMN_VELOCITY, COLUMN_STRESS, COLUMN_VOLUME, COLUMN_MASS, COLUMN_ENERGY,
+                                          COLUMN_DEFORMATION, COLUMN_INITIAL_POSITION, COLUMN_ID, COLUMN_BODY};
+    uint64_t wanted = 0;
+    for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++)
+        wanted |= column_bit(columns[i]);
+    struct store *store = dynamic->store = store_open(dynamic->count, wanted);
+    store_open_history(store, law_history(dynamic->material));
+    for (size_t n = 0; n < dynamic->count; n++) {
+        store->integer[COLUMN_ID][n] = store->index_of_id[n] = (int32_t)n;
+        store->real[COLUMN_VOLUME][0][n] = dynamic->volume;
+        store->real[COLUMN_MASS][0][n] = dynamic->mass;
+        for (int a = 0; a < 3; a++)
+            store->real[COLUMN_INITIAL_POSITION][a][n] = dynamic->rest[a][n];
+    }
+}
+
+/* Coefficients at rest places give linear fields, and so the velocities of a rigid body. */
+static void start_motion(struct dynamic *dynamic)
+{
+    const struct scene_dynamic *words = &dynamic->words->dynamic;
+    const double *centre = words->lattice.centre;
+    for (size_t n = 0; n < dynamic->count; n++) {
+        const double arm[3] = {dynamic->rest[0][n] - centre[0], dynamic->rest[1][n] - centre[1], 0};
+        const double turning[3] = {-words->spin * arm[1], words->spin * arm[0], 0};
+        for (int a = 0; a < dynamic->dimension; a++) {
+            dynamic->coefficient[a][n] = dynamic->rest[a][n];
+            dynamic->velocity[a][n] = words->velocity[a] + turning[a];
+        }
+    }
+}
+
+/* --- room --- */
+
+/* Numbers of a gradient of stress: the mean, the spring's deviator and that of each element. */
+static int gradient_terms(const struct dynamic *dynamic)
+{
+    return dynamic->words->integration == INTEGRATION_NSNI ? 7 + 6 * dynamic->material->n_elements : 0;
+}
+
+static void create_work(struct dynamic *dynamic)
+{
+    const size_t count = dynamic->count, axes = (size_t)dynamic->dimension, rows = (size_t)dynamic->nodal.rows;
+    double **const arrays[] = {&dynamic->trace, &dynamic->volume_before, &dynamic->terms[0], &dynamic->terms[1], &dynamic->wall_force};
+    for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
+        *arrays[i] = memory_array(count, sizeof(double), "nodes");
+    for (int a = 0; a < 6; a++)
+        dynamic->strain[a] = memory_array(count, sizeof(double), "strains");
+    for (int a = 0; a < 3; a++)
+        dynamic->spin[a] = memory_array(count, sizeof(double), "strains");
+    dynamic->increment = memory_array(count * axes, sizeof(double), "nodes");
+    dynamic->place = memory_array(count * axes, sizeof(double), "nodes");
+    dynamic->load = memory_array(count * rows * axes * axes, sizeof(double), "forces");
+    dynamic->gradient_terms = gradient_terms(dynamic);
+    dynamic->gradient_stress = memory_array(count * axes * (size_t)dynamic->gradient_terms, sizeof(double), "gradients of stress");
+}
+
+static void open_rows(struct dynamic *dynamic)
+{
+    const struct scene_rkpm *words = dynamic->words;
+    double radius[3] = {1, 1, 1};
+    for (int a = 0; a < dynamic->dimension; a++)
+        radius[a] = words->support[a] * dynamic->spacing;
+    rkpm_nodal_open(&dynamic->nodal, dynamic->dimension, words->integration, words->gradient, dynamic->count, dynamic->rest, dynamic->volumes,
+                    NULL, radius, true);
+    rkpm_dynamic_pairs(dynamic);
+}
+
+struct dynamic *rkpm_dynamic_open(const struct scene *scene, struct timers *timers)
+{
+    struct dynamic *dynamic = memory_array(1, sizeof *dynamic, "the run");
+    dynamic->scene = scene;
+    dynamic->words = &scene->rkpm;
+    dynamic->material = &scene->materials[0].material;
+    dynamic->timers = timers;
+    dynamic->dimension = (int)scene->rkpm.dimension;
+    const double given = scene->rkpm.dynamic.stabilisation;
+    dynamic->stabilisation = given >= 0 ? given : dynamic->material->law->stabilisation;
+    for (int a = 0; a < 3; a++) {
+        double **const arrays[] = {&dynamic->coefficient[a], &dynamic->velocity[a], &dynamic->acceleration[a]};
+        for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
+            *arrays[i] = memory_array((size_t)scene->n_particles, sizeof(double), "nodes");
+    }
+    create_nodes(dynamic);
+    create_store(dynamic);
+    open_rows(dynamic);
+    create_work(dynamic);
+    start_motion(dynamic);
+    rkpm_dynamic_places(dynamic);
+    rkpm_dynamic_forces(dynamic);
+    rkpm_dynamic_sum(dynamic);
+    dynamic->first_time_step = dynamic->time_step = rkpm_dynamic_limit(dynamic);
+    return dynamic;
+}
+
+void rkpm_dynamic_close(struct dynamic *dynamic)
+{
+    if (!dynamic)
+        return;
+    for (int a = 0; a < 3; a++) {
+        memory_free(dynamic->rest[a]);
+        memory_free(dynamic->coefficient[a]);
+        memory_free(dynamic->velocity[a]);
+        memory_free(dynamic->acceleration[a]);
+        memory_free(dynamic->spin[a]);
+    }
+    for (int a = 0; a < 6; a++)
+        memory_free(dynamic->strain[a]);
+    double *const arrays[] = {dynamic->volumes,         dynamic->trace, dynamic->volume_before,
+                              dynamic->terms[0],        dynamic->terms[1], dynamic->wall_force, dynamic->increment, dynamic->place,
+                              dynamic->load,            dynamic->gradient_stress};
+    for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
+        memory_free(arrays[i]);
+    rkpm_nodal_close(&dynamic->nodal);
+    memory_free(dynamic->pairs.first);
+    memory_free(dynamic->pairs.node);
+    memory_free(dynamic->pairs.place);
+    store_close(dynamic->store);
+    memory_free(dynamic);
+}
