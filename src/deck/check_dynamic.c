@@ -49,8 +49,10 @@ static void check_pairs(struct reader *reader)
     const struct scene_dynamic *dynamic = &rkpm->dynamic;
     if (rkpm->basis != BASIS_LINEAR)
         diagnostics_error(reader->diagnostics, place_of(reader, "basi"), "'prob dynamic' has linear functions; expected 'basi linear'");
-    if (was_given(reader, "inte") && rkpm->integration == INTEGRATION_GAUSS)
-        diagnostics_error(reader->diagnostics, place_of(reader, "inte"), "'prob dynamic' integrates at nodes; expected 'inte dni', 'inte snni' or 'inte nsni'");
+    if (was_given(reader, "inte") && rkpm->integration != INTEGRATION_DNI && rkpm->integration != INTEGRATION_SNNI
+        && rkpm->integration != INTEGRATION_NSNI)
+        diagnostics_error(reader->diagnostics, place_of(reader, "inte"),
+                          "'prob dynamic' integrates at nodes that have no cells; expected 'inte dni', 'inte snni' or 'inte nsni'");
     if (was_given(reader, "grad") && rkpm->integration != INTEGRATION_DNI)
         diagnostics_error(reader->diagnostics, place_of(reader, "grad"), "'grad' is of 'inte dni'; snni and nsni have gradients of their own");
     if (was_given(reader, "stab") && rkpm->integration != INTEGRATION_NSNI)

@@ -19,7 +19,8 @@ static const char *const gradients[] = {[GRADIENT_DIRECT] = "direct", [GRADIENT_
 static const char *const problems[] = {[PROBLEM_APPROXIMATION] = "approx", [PROBLEM_HELMHOLTZ] = "helmholtz",
                                        [PROBLEM_POISSON] = "poisson", [PROBLEM_DYNAMIC] = "dynamic", NULL};
 static const char *const integrations[] = {[INTEGRATION_GAUSS] = "gauss", [INTEGRATION_DNI] = "dni", [INTEGRATION_SNNI] = "snni",
-                                           [INTEGRATION_NSNI] = "nsni", NULL};
+                                           [INTEGRATION_NSNI] = "nsni", [INTEGRATION_SCNI] = "scni",
+                                           [INTEGRATION_NSNI_SCNI] = "nsci", [INTEGRATION_MSCNI] = "mscni", NULL};
 static const char *const functions[] = {[FUNCTION_SINE] = "sine", [FUNCTION_EXPONENTIAL] = "expo",
                                         [FUNCTION_WAVE] = "wave", [FUNCTION_LINEAR] = "line", NULL};
 static const char *const constraints[] = {[CONSTRAINT_TRANSFORMATION] = "tran", [CONSTRAINT_LAGRANGE] = "lagr",
@@ -133,9 +134,10 @@ const struct keyword rkpm_keywords[] = {
             "multipliers (lagr), by a penalty (pena), by Nitsche's method (nits)"},
     {.name = "beta", .arguments = LIST(NUMBER("beta", NULL, LIMIT_POSITIVE)), .field = FIELD(beta), .apply = read_beta,
      .doc = "factor of pena and nits; with `/h` behind it over the smallest spacing (100 /h)"},
-    {.name = "inte", .long_name = "integration", .arguments = WORD("gauss|dni|snni|nsni"), .choice = CHOICE(integrations, integration),
+    {.name = "inte", .long_name = "integration", .arguments = WORD("gauss|dni|snni|nsni|scni|nsci|mscni"), .choice = CHOICE(integrations, integration),
      .doc = "where the body is integrated: at Gauss points of cells (gauss, default), or at the nodes, directly (dni), with gradients smoothed "
-            "over boxes around them (snni), or with gradients of gradients that stabilise (nsni)"},
+            "over boxes around them (snni) or over cells that fit together (scni), with gradients of gradients that stabilise dni (nsni) or scni "
+            "(nsci), with those of a cell's triangles (mscni)"},
     {.name = "mode", .arguments = WORD("lagrangian|semi"), .choice = CHOICE(reader_kernel_modes, dynamic.mode),
      .doc = "shape functions of the nodes' places at the start (lagrangian, default), or of those of now (semi), made anew in each step"},
     {.name = "star", .long_name = "start", .arguments = LIST(NUMBER("vx", "length/time", LIMIT_NONE), NUMBER("vy", "length/time", LIMIT_NONE)),

@@ -11,9 +11,18 @@
 
 enum basis_form { BASIS_LINEAR, BASIS_BILINEAR, BASIS_QUADRATIC };
 enum gradient_form { GRADIENT_DIRECT, GRADIENT_IMPLICIT, GRADIENT_NONE };
-/* Where the domain is integrated: Gauss points of cells, or the nodes (spec rkpm 3): directly, with gradients smoothed over
- * boxes that don't fit together (snni), with gradients' gradients (nsni). */
-enum integration_form { INTEGRATION_GAUSS, INTEGRATION_DNI, INTEGRATION_SNNI, INTEGRATION_NSNI };
+/* Where the domain is integrated: Gauss points of cells, or the nodes (spec rkpm 3): directly (dni), with gradients smoothed
+ * over boxes that don't fit together (snni) or over cells that do (scni); with gradients' gradients behind those of dni
+ * (nsni) or of scni (nsci), with those of a cell's triangles behind those of scni (mscni). */
+enum integration_form {
+    INTEGRATION_GAUSS,
+    INTEGRATION_DNI,
+    INTEGRATION_SNNI,
+    INTEGRATION_NSNI,
+    INTEGRATION_SCNI,
+    INTEGRATION_NSNI_SCNI,
+    INTEGRATION_MSCNI
+};
 enum rkpm_problem { PROBLEM_APPROXIMATION, PROBLEM_HELMHOLTZ, PROBLEM_POISSON, PROBLEM_DYNAMIC };
 
 /* Exact solutions: product of sines, exponential of the product of coordinates, sine wave that is 1 at the low end and 0 at

@@ -1,39 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Helpers get the dimension as a constant of the function that calls them, so that their short loops are unrolled. */
 #include "rkpm/nodal.h"
 #include "base/memory.h"
 #include "base/threads.h"
-#include "rkpm/kernel.h"
-#include "rkpm/moments.h"
+#include "rkpm/cells.h"
+#include "rkpm/linear.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { AXES = 3, TERMS = 1 + AXES, FEW_NODES = 200, LANES = 4 }; /* below these nodes one thread is faster */
-
-/* Numbers per neighbour: its place; at the point that is looked at its scaled offset, its kernel and the kernel's slopes; the
- * shape functions at two points. */
-struct nodal_scratch {
-    double *room;
-    double *place[AXES], *xi[AXES], *kernel, *slope[AXES], *value[2];
-    size_t capacity;
-    int most; /* neighbours of a node that had no room */
-};
-
-enum { SCRATCH_ARRAYS = 3 * AXES + 3 };
-
-/* The polynomials of a point. */
-struct polynomials {
-    struct moments moments;          /* factored */
-    double first[TERMS];             /* first column of M */
-    double slope[AXES][TERMS][TERMS]; /* sum H H^T Phi_,j, the lower half */
-};
+enum { FEW_NODES = 200, SCRATCH_ARRAYS = 3 * AXES + 3 }; /* below these nodes one thread is faster */
 
 /* --- neighbours --- */
 
-/* Nodes whose support reaches a node, or, farther along one axis, the box around it; only as many as there is room for. */
+/* Nodes whose support reaches a node, or, farther along one axis, the box around it, or, along any, its cell; only as many as
+ * there is room for. */
 THREADS_INLINE int find_neighbours(struct nodal *nodal, size_t node, double slack, const int d)
 {
+    const int most_outside = slack == 0 ? 0 : nodal->cells ? d : 1;
     const struct search *search = &nodal->search;
     int32_t *list = nodal->neighbour + node * (size_t)nodal->stride;
     double middle[AXES] = {0}, inner[AXES], outer[AXES], far = 0;
@@ -53,9 +36,9 @@ THREADS_INLINE int find_neighbours(struct nodal *nodal, size_t node, double slac
                     int outside = 0;
                     for (int a = 0; a < d; a++) {
                         const double distance = fabs(nodal->x[a][search->node[k]] - middle[a]);
-                        outside += distance >= outer[a] ? 2 : distance >= inner[a];
+                        outside += distance >= outer[a] ? AXES + 1 : distance >= inner[a];
                     }
-                    if (outside > 1 || (outside == 1 && slack == 0))
+                    if (outside > most_outside)
                         continue;
                     if (n < nodal->stride)
                         list[n] = search->node[k];
@@ -71,160 +54,6 @@ THREADS_INLINE void gather_places(const struct nodal *nodal, size_t node, struct
     for (int a = 0; a < d; a++)
         for (int k = 0; k < nodal->neighbours[node]; k++)
             scratch->place[a][k] = nodal->x[a][list[k]];
-}
-
-/* --- shape functions at a point --- */
-
-/* Offsets, kernels and, where they are wanted, slopes; zeros behind them, up to a whole number of lanes. */
-THREADS_INLINE void set_kernels(const struct nodal *nodal, const double point[AXES], double reach, int n, bool wants_slopes,
-                                struct nodal_scratch *scratch, const int d)
-{
-    double *restrict kernel = scratch->kernel;
-    for (int k = 0; k < n; k++)
-        kernel[k] = 1;
-    for (int a = 0; a < d; a++) {
-        const double *restrict place = scratch->place[a];
-        double *restrict xi = scratch->xi[a];
-        const double radius = nodal->radius[a] * reach, scale = nodal->radius[a];
-        for (int k = 0; k < n; k++) {
-            xi[k] = (point[a] - place[k]) / scale;
-            kernel[k] *= rkpm_kernel(fabs(point[a] - place[k]) / radius);
-        }
-    }
-    for (int k = 0; k < n; k++)
-        kernel[k] = kernel[k] > MOMENTS_LEAST_KERNEL ? kernel[k] : 0;
-    for (int k = n; k % LANES != 0; k++) {
-        kernel[k] = 0;
-        for (int a = 0; a < d; a++)
-            scratch->xi[a][k] = scratch->slope[a][k] = 0;
-    }
-    for (int a = 0; a < d && wants_slopes; a++) {
-        const double *restrict place = scratch->place[a];
-        double *restrict slope = scratch->slope[a];
-        const double radius = nodal->radius[a] * reach;
-        for (int k = 0; k < n; k++) {
-            const double offset = point[a] - place[k], z = fabs(offset) / radius, along = rkpm_kernel_slope(z) / radius;
-            const double others = kernel[k] > 0 ? kernel[k] / rkpm_kernel(z) : 0;
-            slope[k] = (offset < 0 ? -along : along) * others;
-        }
-    }
-}
-
-/* sum a b w in LANES partial sums, the same for every processor. */
-THREADS_INLINE double sum_product(const double *restrict a, const double *restrict b, const double *restrict w, int n)
-{
-    double sum[LANES] = {0};
-    for (int k = 0; k < n; k += LANES)
-        for (int i = 0; i < LANES; i++)
-            sum[i] += a[k + i] * b[k + i] * w[k + i];
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
-
-THREADS_INLINE double sum_weight(const double *restrict a, const double *restrict w, int n)
-{
-    double sum[LANES] = {0};
-    for (int k = 0; k < n; k += LANES)
-        for (int i = 0; i < LANES; i++)
-            sum[i] += a[k + i] * w[k + i];
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
-
-THREADS_INLINE double sum_all(const double *restrict w, int n)
-{
-    double sum[LANES] = {0};
-    for (int k = 0; k < n; k += LANES)
-        for (int i = 0; i < LANES; i++)
-            sum[i] += w[k + i];
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
-
-/* sum H H^T w, the lower half. */
-THREADS_INLINE void sum_moments(const struct nodal_scratch *scratch, const double *weight, int n, double *matrix, int row, const int d)
-{
-    matrix[0] = sum_all(weight, n);
-    for (int i = 0; i < d; i++) {
-        matrix[(1 + i) * row] = sum_weight(scratch->xi[i], weight, n);
-        for (int j = 0; j <= i; j++)
-            matrix[(1 + i) * row + 1 + j] = sum_product(scratch->xi[i], scratch->xi[j], weight, n);
-    }
-}
-
-/* M of the kernels, factored; false where nodes are too few. */
-THREADS_INLINE bool factor_moments(const struct nodal_scratch *scratch, int n, struct polynomials *polynomials, const int d)
-{
-    struct moments *moments = &polynomials->moments;
-    int near = 0;
-    moments->count = d + 1;
-    sum_moments(scratch, scratch->kernel, n, &moments->a[0][0], BASIS_LARGEST, d);
-    for (int i = 0; i <= d; i++)
-        polynomials->first[i] = moments->a[i][0];
-    for (int k = 0; k < n; k++)
-        near += scratch->kernel[k] > 0;
-    return near > d && moments_factor(moments);
-}
-
-/* (b . H) Phi of all neighbours, b = M^-1 right. */
-THREADS_INLINE void apply_polynomial(const struct nodal_scratch *scratch, int n, const double b[TERMS], double *restrict result, const int d)
-{
-    const double *restrict kernel = scratch->kernel;
-    for (int k = 0; k < n; k++) {
-        double sum = b[0];
-        for (int a = 0; a < d; a++)
-            sum += b[1 + a] * scratch->xi[a][k];
-        result[k] = sum * kernel[k];
-    }
-}
-
-/* b = M^-1 H(0) of the values (3.5); with an axis M^-1 H^(i), H^(i) = -e_i/s, of the implicit gradient. */
-THREADS_INLINE void solve_polynomial(const struct nodal *nodal, const struct polynomials *polynomials, int axis, double b[TERMS])
-{
-    for (int i = 0; i < TERMS; i++)
-        b[i] = 0;
-    b[axis < 0 ? 0 : 1 + axis] = axis < 0 ? 1 : -1 / nodal->radius[axis];
-    moments_solve(&polynomials->moments, b);
-}
-
-/* The derivative along an axis of (b . H) Phi, b' = -M^-1 M' b; H' = e/s, so M' = sum H H^T Phi' + (e M_0^T + M_0 e^T)/s. */
-THREADS_INLINE void apply_derivative(const struct nodal *nodal, const struct nodal_scratch *scratch, int n, const struct polynomials *polynomials,
-                                     const double b[TERMS], int axis, double *restrict result, const int d)
-{
-    const double scale = nodal->radius[axis];
-    double change[TERMS] = {0}, along = 0;
-    for (int i = 0; i <= d; i++) {
-        for (int j = 0; j <= d; j++)
-            change[i] -= polynomials->slope[axis][i > j ? i : j][i > j ? j : i] * b[j];
-        change[i] -= polynomials->first[i] * b[1 + axis] / scale;
-        along += polynomials->first[i] * b[i];
-    }
-    change[1 + axis] -= along / scale;
-    moments_solve(&polynomials->moments, change);
-    change[0] += b[1 + axis] / scale;
-    const double *restrict kernel = scratch->kernel, *restrict slope = scratch->slope[axis];
-    for (int k = 0; k < n; k++) {
-        double own = b[0], changed = change[0];
-        for (int a = 0; a < d; a++) {
-            own += b[1 + a] * scratch->xi[a][k];
-            changed += change[1 + a] * scratch->xi[a][k];
-        }
-        result[k] = changed * kernel[k] + own * slope[k];
-    }
-}
-
-/* Values at a point; Shepard's, and false, where nodes are too few. */
-THREADS_INLINE bool find_values(const struct nodal *nodal, const struct nodal_scratch *scratch, int n, struct polynomials *polynomials,
-                                double *result, const int d)
-{
-    double b[TERMS], sum = 0;
-    if (factor_moments(scratch, n, polynomials, d)) {
-        solve_polynomial(nodal, polynomials, -1, b);
-        apply_polynomial(scratch, n, b, result, d);
-        return true;
-    }
-    for (int k = 0; k < n; k++)
-        sum += scratch->kernel[k];
-    for (int k = 0; k < n; k++)
-        result[k] = sum > 0 ? scratch->kernel[k] / sum : 0;
-    return false;
 }
 
 /* --- rows of a node --- */
@@ -245,33 +74,45 @@ THREADS_INLINE void set_weights(const struct nodal *nodal, size_t node, const in
     double *weight = nodal->weights + node * (size_t)nodal->rows;
     const double volume = nodal->volume[node], half = half_side(volume, d);
     weight[0] = volume;
-    for (int row = 1; row < nodal->rows; row++)
+    for (int row = 1; row < nodal->rows && nodal->rule != INTEGRATION_MSCNI; row++)
         weight[row] = nodal->moment[row - 1] ? nodal->moment[row - 1][node] : volume * half * half / 3;
 }
 
-/* dni and nsni: gradients at the node itself, and of nsni their derivatives. */
+/* The derivatives of implicit gradients at the node, whose kernels the scratch has. */
+THREADS_INLINE void set_second_rows(const struct nodal *nodal, size_t node, int n, const struct nodal_scratch *scratch,
+                                    const struct polynomials *polynomials, const int d)
+{
+    double b[TERMS];
+    for (int a = 0; a < d; a++) {
+        solve_polynomial(nodal, polynomials, a, b);
+        for (int row = 1; row < nodal->rows; row++)
+            apply_derivative(nodal, scratch, n, polynomials, b, row - 1, row_of(nodal, node, row, a), d);
+    }
+}
+
+/* dni and nsni: gradients at the node itself; of nsni their derivatives too, and of nsni with scni only those. */
 THREADS_INLINE bool set_rows_at_node(const struct nodal *nodal, size_t node, int n, struct nodal_scratch *scratch, const int d)
 {
     const bool is_direct = nodal->rule == INTEGRATION_DNI && nodal->gradient == GRADIENT_DIRECT;
-    const bool wants_slopes = is_direct || nodal->rule == INTEGRATION_NSNI;
+    const bool has_second = nodal->rule == INTEGRATION_NSNI || nodal->rule == INTEGRATION_NSNI_SCNI;
     struct polynomials polynomials;
     double middle[AXES] = {0}, b[TERMS];
     for (int a = 0; a < d; a++)
         middle[a] = nodal->x[a][node];
-    set_kernels(nodal, middle, nodal->reach[node], n, wants_slopes, scratch, d);
+    set_kernels(nodal, middle, nodal->reach[node], n, is_direct || has_second, scratch, d);
     if (!find_values(nodal, scratch, n, &polynomials, nodal->value + node * (size_t)nodal->stride, d))
         return false;
-    for (int a = 0; a < d && wants_slopes; a++)
+    for (int a = 0; a < d && (is_direct || has_second); a++)
         sum_moments(scratch, scratch->slope[a], n, &polynomials.slope[a][0][0], TERMS, d);
-    for (int a = 0; a < d; a++) {
+    for (int a = 0; a < d && !nodal->cells; a++) {
         solve_polynomial(nodal, &polynomials, is_direct ? -1 : a, b);
         if (is_direct)
             apply_derivative(nodal, scratch, n, &polynomials, b, a, row_of(nodal, node, 0, a), d);
         else
             apply_polynomial(scratch, n, b, row_of(nodal, node, 0, a), d);
-        for (int row = 1; row < nodal->rows; row++)
-            apply_derivative(nodal, scratch, n, &polynomials, b, row - 1, row_of(nodal, node, row, a), d);
     }
+    if (has_second)
+        set_second_rows(nodal, node, n, scratch, &polynomials, d);
     return true;
 }
 
@@ -299,10 +140,83 @@ THREADS_INLINE bool set_rows_of_box(const struct nodal *nodal, size_t node, int 
     return good;
 }
 
+/* row += factor area Psi(point) of all axes. */
+THREADS_INLINE bool add_values(const struct nodal *nodal, size_t node, int n, int row, const double point[AXES], const double area[AXES],
+                               double factor, struct nodal_scratch *scratch, const int d)
+{
+    struct polynomials polynomials;
+    set_kernels(nodal, point, nodal->reach[node], n, false, scratch, d);
+    const bool good = find_values(nodal, scratch, n, &polynomials, scratch->value[0], d);
+    for (int a = 0; a < d; a++) {
+        double *restrict gradient = row_of(nodal, node, row, a);
+        for (int k = 0; k < n; k++)
+            gradient[k] += factor * area[a] * scratch->value[0][k];
+    }
+    return good;
+}
+
+/* mscni: the gradient in the triangle between the node and an edge, less that of the cell. */
+THREADS_INLINE bool set_row_of_triangle(const struct nodal *nodal, size_t node, int n, int row, const double from[2], const double to[2],
+                                        struct nodal_scratch *scratch)
+{
+    const double middle[2] = {nodal->x[0][node], nodal->x[1][node]};
+    const double *const corner[] = {middle, from, to};
+    const double area = 0.5 * ((from[0] - middle[0]) * (to[1] - middle[1]) - (from[1] - middle[1]) * (to[0] - middle[0]));
+    bool good = true;
+    nodal->weights[node * (size_t)nodal->rows + (size_t)row] = area;
+    for (int a = 0; a < 2; a++)
+        for (int k = 0; k < n; k++)
+            row_of(nodal, node, row, a)[k] = -rkpm_nodal_gradient(nodal, node, 0, a)[k];
+    for (int i = 0; i < 3 && area > 0; i++) {
+        const double *p = corner[i], *q = corner[(i + 1) % 3];
+        const double point[AXES] = {0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])}, normal[AXES] = {q[1] - p[1], p[0] - q[0]};
+        good = add_values(nodal, node, n, row, point, normal, 1 / area, scratch, 2) && good;
+    }
+    return good;
+}
+
+/* scni: integrals over the faces of the cell, and what stabilises them. */
+THREADS_INLINE bool set_rows_of_cell(const struct nodal *nodal, size_t node, int n, struct nodal_scratch *scratch, const int d)
+{
+    const struct cells *cells = nodal->cells;
+    const size_t first = cells->first[node], faces = cells->first[node + 1] - first;
+    bool good = set_rows_at_node(nodal, node, n, scratch, d);
+    for (int a = 0; a < d; a++)
+        memset(row_of(nodal, node, 0, a), 0, (size_t)n * sizeof(double));
+    for (size_t f = 0; f < faces; f++) {
+        const struct cell_face *face = &cells->face[first + f];
+        good = add_values(nodal, node, n, 0, face->middle, face->area, 1 / nodal->volume[node], scratch, d) && good;
+    }
+    for (int row = 1; row < nodal->rows && nodal->rule == INTEGRATION_MSCNI; row++) {
+        const size_t f = (size_t)row - 1;
+        if (f < faces)
+            good = set_row_of_triangle(nodal, node, n, row, cells->face[first + f].corner, cells->face[first + (f + 1) % faces].corner, scratch) && good;
+    }
+    return good;
+}
+
+/* How far the points that a node's rows are made from are away from it. */
+THREADS_INLINE double reach_of_rows(const struct nodal *nodal, size_t node, const int d)
+{
+    double slack = 0;
+    if (nodal->rule == INTEGRATION_SNNI)
+        return half_side(nodal->volume[node], d);
+    for (size_t f = nodal->cells ? nodal->cells->first[node] : 0; nodal->cells && f < nodal->cells->first[node + 1]; f++)
+        for (int a = 0; a < d; a++)
+            slack = fmax(slack, fabs(nodal->cells->face[f].middle[a] - nodal->x[a][node]));
+    return slack;
+}
+
+THREADS_INLINE bool set_rows(const struct nodal *nodal, size_t node, int n, struct nodal_scratch *scratch, const int d)
+{
+    if (nodal->cells)
+        return set_rows_of_cell(nodal, node, n, scratch, d);
+    return nodal->rule == INTEGRATION_SNNI ? set_rows_of_box(nodal, node, n, scratch, d) : set_rows_at_node(nodal, node, n, scratch, d);
+}
+
 THREADS_INLINE void set_node(struct nodal *nodal, size_t node, struct nodal_scratch *scratch, const int d)
 {
-    const bool is_box = nodal->rule == INTEGRATION_SNNI;
-    const int n = find_neighbours(nodal, node, is_box ? half_side(nodal->volume[node], d) : 0, d);
+    const int n = find_neighbours(nodal, node, reach_of_rows(nodal, node, d), d);
     nodal->neighbours[node] = n;
     if (n > nodal->stride) {
         scratch->most = n > scratch->most ? n : scratch->most;
@@ -310,7 +224,7 @@ THREADS_INLINE void set_node(struct nodal *nodal, size_t node, struct nodal_scra
     }
     gather_places(nodal, node, scratch, d);
     set_weights(nodal, node, d);
-    nodal->is_lowered[node] = !(is_box ? set_rows_of_box(nodal, node, n, scratch, d) : set_rows_at_node(nodal, node, n, scratch, d));
+    nodal->is_lowered[node] = !set_rows(nodal, node, n, scratch, d);
     for (int row = 0; row < nodal->rows && nodal->is_lowered[node]; row++)
         for (int a = 0; a < d; a++)
             memset(row_of(nodal, node, row, a), 0, (size_t)n * sizeof(double));
@@ -412,24 +326,41 @@ void rkpm_nodal_renew(struct nodal *nodal)
     }
 }
 
-void rkpm_nodal_open(struct nodal *nodal, int dimension, enum integration_form rule, enum gradient_form gradient, size_t count,
-                     double *const *x, const double *volume, const double *const *moment, const double radius[3], bool grows)
+/* With what the caller has said. */
+static void open_rows(struct nodal *nodal, const double radius[3])
 {
-    *nodal = (struct nodal){.dimension = dimension, .rule = rule, .gradient = gradient, .count = count, .x = x, .volume = volume, .grows = grows};
-    nodal->rows = rule == INTEGRATION_NSNI ? 1 + dimension : 1;
-    for (int a = 0; a < 3; a++) {
-        nodal->moment[a] = moment ? moment[a] : NULL;
+    const size_t count = nodal->count;
+    for (int a = 0; a < 3; a++)
         nodal->radius[a] = radius[a];
-    }
     nodal->neighbours = memory_array(count, sizeof *nodal->neighbours, "rows of nodes");
     nodal->weights = memory_array(count * (size_t)nodal->rows, sizeof(double), "rows of nodes");
     nodal->reach = memory_array(count, sizeof(double), "rows of nodes");
     nodal->is_lowered = memory_array(count, sizeof *nodal->is_lowered, "rows of nodes");
     nodal->n_scratch = threads_available();
     nodal->scratch = memory_array((size_t)nodal->n_scratch, sizeof *nodal->scratch, "rows of nodes");
-    search_open(&nodal->search, dimension, count, x, radius);
+    search_open(&nodal->search, nodal->dimension, count, nodal->x, radius);
     make_room(nodal, 8);
     rkpm_nodal_renew(nodal);
+}
+
+void rkpm_nodal_open(struct nodal *nodal, int dimension, enum integration_form rule, enum gradient_form gradient, size_t count,
+                     double *const *x, const double *volume, const double *const *moment, const double radius[3], bool grows)
+{
+    *nodal = (struct nodal){.dimension = dimension, .rule = rule, .gradient = gradient, .count = count, .x = x, .volume = volume, .grows = grows};
+    nodal->rows = rule == INTEGRATION_NSNI ? 1 + dimension : 1;
+    for (int a = 0; a < 3; a++)
+        nodal->moment[a] = moment ? moment[a] : NULL;
+    open_rows(nodal, radius);
+}
+
+void rkpm_nodal_open_cells(struct nodal *nodal, enum integration_form rule, const struct cells *cells, double *const *x, const double radius[3])
+{
+    *nodal = (struct nodal){.dimension = cells->dimension, .rule = rule, .gradient = GRADIENT_IMPLICIT, .count = cells->count, .x = x,
+                            .volume = cells->volume, .cells = cells, .grows = true};
+    nodal->rows = 1 + (rule == INTEGRATION_NSNI_SCNI ? cells->dimension : rule == INTEGRATION_MSCNI ? cells->most : 0);
+    for (int a = 0; a < 3; a++)
+        nodal->moment[a] = cells->moment[a];
+    open_rows(nodal, radius);
 }
 
 void rkpm_nodal_close(struct nodal *nodal)

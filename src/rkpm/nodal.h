@@ -12,6 +12,7 @@
 
 #include <stdbool.h>
 
+struct cells;
 struct nodal_scratch; /* of a thread */
 
 struct nodal {
@@ -21,11 +22,12 @@ struct nodal {
     size_t count;
     double *const *x;        /* the caller's: nodes' places, by axis */
     const double *volume;    /* the caller's: of the nodes' cells */
+    const struct cells *cells; /* the caller's, of scni, nsni with scni, mscni; else NULL */
     const double *moment[3]; /* the caller's, of nsni: integral of (x_a - x_Ia)^2 over the cell; NULL: cells are squares or cubes */
     double radius[3];        /* of the supports */
     bool grows;              /* supports grow by 1.2 up to three times where nodes are too few; else the order is lowered at once */
 
-    int rows;            /* per node: 1, or 1 + dimension with nsni */
+    int rows;            /* per node: 1; with nsni 1 + dimension; with mscni 1 + triangles of a cell, those that it lacks of weight 0 */
     int stride;          /* neighbours that a node has room for */
     int32_t *neighbours; /* per node: how many it has, itself among them */
     int32_t *neighbour;  /* by nodes, stride each */
@@ -44,6 +46,8 @@ struct nodal {
 /* Makes rows of nodes x[axis][node], whose arrays stay where they are; `moment` may be NULL. */
 void rkpm_nodal_open(struct nodal *nodal, int dimension, enum integration_form rule, enum gradient_form gradient, size_t count,
                      double *const *x, const double *volume, const double *const *moment, const double radius[3], bool grows);
+/* The same over cells that fit together, with rules that need them, mscni in two dimensions only; the nodes stay where they are. */
+void rkpm_nodal_open_cells(struct nodal *nodal, enum integration_form rule, const struct cells *cells, double *const *x, const double radius[3]);
 void rkpm_nodal_close(struct nodal *nodal);
 
 /* Makes the rows anew after places, volumes or moments have changed. Nodes are shared among the threads; the rows don't
