@@ -4,6 +4,7 @@
 #include "deck/commands_dynamic.h"
 
 #include <math.h>
+#include <string.h>
 
 static const size_t MOST_NODES = 10000000;
 enum { MOST_ELEMENTS = 16 }; /* of nsni */
@@ -21,10 +22,14 @@ static struct deck_place place_of(const struct reader *reader, const char *name)
 /* Words of problems that mean nothing here. */
 static void check_words(struct reader *reader)
 {
-    static const char *const problems[] = {"refi", "func", "wave", "gaus", "gbou", "gnor", "cons", "beta", NULL};
-    for (int i = 0; problems[i]; i++)
-        if (was_given(reader, problems[i]))
-            diagnostics_error(reader->diagnostics, place_of(reader, problems[i]), "'%s' does not go with 'prob dynamic'", problems[i]);
+    static const char *const words[] = {"dime", "node", "basi", "supp", "grad", "prob", "inte", "mode", "star", "spin", "grav", "wall", "stab", NULL};
+    for (const struct keyword *row = rkpm_keywords; row->name; row++) {
+        bool is_known = false;
+        for (int i = 0; words[i]; i++)
+            is_known = is_known || strcmp(row->name, words[i]) == 0;
+        if (!is_known && was_given(reader, row->name))
+            diagnostics_error(reader->diagnostics, place_of(reader, row->name), "'%s' does not go with 'prob dynamic'", row->name);
+    }
 }
 
 static void check_missing(struct reader *reader)

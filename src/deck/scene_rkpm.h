@@ -23,11 +23,12 @@ enum integration_form {
     INTEGRATION_NSNI_SCNI,
     INTEGRATION_MSCNI
 };
-enum rkpm_problem { PROBLEM_APPROXIMATION, PROBLEM_HELMHOLTZ, PROBLEM_POISSON, PROBLEM_DYNAMIC };
+enum rkpm_problem { PROBLEM_APPROXIMATION, PROBLEM_HELMHOLTZ, PROBLEM_POISSON, PROBLEM_ELASTIC, PROBLEM_DYNAMIC };
+enum plane_mode { PLANE_STRESS, PLANE_STRAIN };
 
 /* Exact solutions: product of sines, exponential of the product of coordinates, sine wave that is 1 at the low end and 0 at
- * the high one, linear function. */
-enum rkpm_function { FUNCTION_SINE, FUNCTION_EXPONENTIAL, FUNCTION_WAVE, FUNCTION_LINEAR };
+ * the high one, linear function; displacements that are linear, and those of Timoshenko's cantilever. */
+enum rkpm_function { FUNCTION_SINE, FUNCTION_EXPONENTIAL, FUNCTION_WAVE, FUNCTION_LINEAR, FUNCTION_PATCH, FUNCTION_BEAM };
 
 /* How values at the boundary are prescribed. */
 enum constraint_form { CONSTRAINT_TRANSFORMATION, CONSTRAINT_LAGRANGE, CONSTRAINT_PENALTY, CONSTRAINT_NITSCHE };
@@ -59,6 +60,12 @@ struct scene_rkpm {
     double beta;          /* of penalty and Nitsche's method */
     bool beta_over_spacing;
     struct scene_dynamic dynamic;
+    bool is_consistent;   /* test functions' gradients are corrected (vci) */
+    double young, poisson; /* consecutive: read as one list */
+    enum plane_mode plane;
+    double beam_load;     /* of func beam, along y at its free end */
+    bool held[6];         /* sides where displacements are given: low and high of each axis */
+    double jitter[2];     /* random moves of inner nodes, in spacings; the seed */
     struct deck_place place; /* of the word rkpm */
 };
 

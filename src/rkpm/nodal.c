@@ -269,7 +269,8 @@ static void open_scratch(struct nodal_scratch *scratch, int stride)
 /* Makes room for so many neighbours of each node. */
 static void make_room(struct nodal *nodal, int stride)
 {
-    const size_t pairs = nodal->count * (size_t)stride;
+    nodal->room = nodal->count > nodal->room ? nodal->count : nodal->room;
+    const size_t pairs = nodal->room * (size_t)stride;
     nodal->stride = stride;
     nodal->neighbour = memory_grow(nodal->neighbour, &nodal->neighbour_capacity, pairs, sizeof *nodal->neighbour, "rows of nodes");
     nodal->value = memory_grow(nodal->value, &nodal->value_capacity, pairs, sizeof(double), "rows of nodes");

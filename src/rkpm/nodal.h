@@ -19,7 +19,7 @@ struct nodal {
     int dimension;
     enum integration_form rule;
     enum gradient_form gradient; /* of dni: direct or implicit; nsni has implicit ones, snni none */
-    size_t count;
+    size_t count;            /* the caller may lower it, and raise it again, before the rows are made anew */
     double *const *x;        /* the caller's: nodes' places, by axis */
     const double *volume;    /* the caller's: of the nodes' cells */
     const struct cells *cells; /* the caller's, of scni, nsni with scni, mscni; else NULL */
@@ -37,6 +37,7 @@ struct nodal {
     double *reach;       /* per node: factor of the supports at it, 1 or more */
     bool *is_lowered;    /* per node: even with it nodes are too few; the row is Shepard's, its gradients zero */
     long enlarged, lowered;
+    size_t room;         /* nodes at most: those of the start */
     struct search search;
     struct nodal_scratch *scratch;
     int n_scratch;

@@ -12,6 +12,20 @@ int rkpm_shape_order(enum basis_form form)
     return form == BASIS_QUADRATIC ? 2 : 1;
 }
 
+/* Room for the row of a point. */
+static void open_row(struct rkpm_shape *shape)
+{
+    const size_t most = shape->most;
+    shape->row = (struct shape_row){.node = memory_array(most, sizeof *shape->row.node, "shape functions"),
+                                    .value = memory_array(most, sizeof(double), "shape functions")};
+    shape->monomials = memory_array(most * BASIS_LARGEST, sizeof(double), "shape functions");
+    shape->kernel = memory_array(most, sizeof(double), "shape functions");
+    for (int a = 0; a < shape->dimension; a++) {
+        shape->row.gradient[a] = memory_array(most, sizeof(double), "shape functions");
+        shape->kernel_slope[a] = memory_array(most, sizeof(double), "shape functions");
+    }
+}
+
 void rkpm_shape_open(struct rkpm_shape *shape, int dimension, enum basis_form form, size_t count, double *const *x, const double radius[3])
 {
     *shape = (struct rkpm_shape){.dimension = dimension, .x = x, .form = form, .top = form == BASIS_LINEAR ? 1 : 2};
@@ -20,28 +34,33 @@ void rkpm_shape_open(struct rkpm_shape *shape, int dimension, enum basis_form fo
     shape->basis[1] = basis_complete(dimension, 1);
     shape->basis[2] = form == BASIS_BILINEAR ? basis_tensor(dimension) : basis_complete(dimension, 2);
     search_open(&shape->search, dimension, count, x, radius);
-    const size_t most = search_most(&shape->search, pow(MOMENTS_ENLARGEMENT, MOMENTS_ENLARGEMENTS));
-    shape->row.node = memory_array(most, sizeof *shape->row.node, "shape functions");
-    shape->row.value = memory_array(most, sizeof(double), "shape functions");
-    shape->monomials = memory_array(most * BASIS_LARGEST, sizeof(double), "shape functions");
-    shape->kernel = memory_array(most, sizeof(double), "shape functions");
-    for (int a = 0; a < dimension; a++) {
-        shape->row.gradient[a] = memory_array(most, sizeof(double), "shape functions");
-        shape->kernel_slope[a] = memory_array(most, sizeof(double), "shape functions");
+    shape->most = search_most(&shape->search, pow(MOMENTS_ENLARGEMENT, MOMENTS_ENLARGEMENTS));
+    open_row(shape);
+}
+
+void rkpm_shape_open_copy(struct rkpm_shape *copy, const struct rkpm_shape *shape)
+{
+    *copy = *shape;
+    copy->enlarged = copy->lowered = 0;
+    open_row(copy);
+}
+
+void rkpm_shape_close_copy(struct rkpm_shape *copy)
+{
+    memory_free(copy->row.node);
+    memory_free(copy->row.value);
+    memory_free(copy->monomials);
+    memory_free(copy->kernel);
+    for (int a = 0; a < 3; a++) {
+        memory_free(copy->row.gradient[a]);
+        memory_free(copy->kernel_slope[a]);
     }
 }
 
 void rkpm_shape_close(struct rkpm_shape *shape)
 {
     search_close(&shape->search);
-    memory_free(shape->row.node);
-    memory_free(shape->row.value);
-    memory_free(shape->monomials);
-    memory_free(shape->kernel);
-    for (int a = 0; a < 3; a++) {
-        memory_free(shape->row.gradient[a]);
-        memory_free(shape->kernel_slope[a]);
-    }
+    rkpm_shape_close_copy(shape);
 }
 
 /* --- nodes and kernels --- */
