@@ -9,7 +9,8 @@ static void open_solver(struct run *run)
     static const int number = 1;
     struct dynamic *dynamic = run->dynamic = rkpm_dynamic_open(run->scene, &run->timers);
     run->store = dynamic->store;
-    run->source = (struct result_source){.store = dynamic->store, .body_material = &dynamic->material, .body_material_number = &number};
+    run->source = (struct result_source){.store = dynamic->store, .body_material = &dynamic->material, .body_material_number = &number,
+                                         .n_open = &dynamic->fixed.shown};
 }
 
 static void close_solver(struct run *run)

@@ -62,7 +62,7 @@ void rkpm_dynamic_move(struct dynamic *dynamic)
         const double *restrict v = dynamic->velocity[a];
         for (size_t n = 0; n < dynamic->count; n++) {
             dynamic->increment[n * (size_t)d + (size_t)a] = dt * v[n];
-            x[n] += dt * v[n];
+            x[n] += dynamic->is_semi ? 0 : dt * v[n];
         }
     }
 }
@@ -81,20 +81,24 @@ struct instability rkpm_dynamic_advance(struct dynamic *dynamic)
 {
     timers_enter(dynamic->timers, PHASE_MOVE);
     rkpm_dynamic_move(dynamic);
+    if (dynamic->is_semi)
+        rkpm_dynamic_follow(dynamic);
     timers_enter(dynamic->timers, PHASE_STRESS);
     rkpm_dynamic_strain(dynamic);
-    timers_enter(dynamic->timers, PHASE_MOVE);
-    rkpm_dynamic_places(dynamic);
     timers_enter(dynamic->timers, PHASE_FORCES);
     rkpm_dynamic_forces(dynamic);
+    timers_enter(dynamic->timers, PHASE_MOVE);
     finish_velocities(dynamic);
+    rkpm_dynamic_places(dynamic);
     dynamic->step++;
     dynamic->time += dynamic->time_step;
     dynamic->updates += (double)dynamic->count;
     timers_enter(dynamic->timers, PHASE_SUMS);
     rkpm_dynamic_sum(dynamic);
+    rkpm_dynamic_release(dynamic);
     dynamic->time_step = rkpm_dynamic_limit(dynamic);
-    check(dynamic);
+    if (!dynamic->instability.is_stopped)
+        check(dynamic);
     timers_enter(dynamic->timers, PHASE_OTHER);
     return dynamic->instability;
 }
@@ -107,12 +111,12 @@ static const struct {
     const char *name;
     size_t offset, size;
 } fields[] = {
-    FIELD(step), FIELD(time), FIELD(time_step), FIELD(first_time_step), FIELD(updates), FIELD(sums),
+    FIELD(step), FIELD(time), FIELD(time_step), FIELD(first_time_step), FIELD(updates), FIELD(sums), FIELD(fixed.is_released), FIELD(fixed.is_left_out),
 };
 
 void rkpm_dynamic_exchange(struct dynamic *dynamic, struct checkpoint *checkpoint)
 {
-    const size_t terms = dynamic->count * (size_t)(dynamic->dimension * dynamic->gradient_terms);
+    const size_t all = dynamic->store->count, terms = all * (size_t)(dynamic->dimension * dynamic->gradient_terms);
     for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
         checkpoint_item(checkpoint, fields[i].name, (char *)dynamic + fields[i].offset, fields[i].size, 1);
     store_exchange(dynamic->store, checkpoint, 1);
@@ -126,4 +130,10 @@ void rkpm_dynamic_exchange(struct dynamic *dynamic, struct checkpoint *checkpoin
                     dynamic->count * (size_t)(dynamic->nodal.rows * dynamic->dimension * dynamic->dimension));
     if (terms > 0)
         checkpoint_item(checkpoint, "gradient_stress", dynamic->gradient_stress, sizeof(double), terms);
+    if (!dynamic->is_semi)
+        return;
+    checkpoint_item(checkpoint, "volumes", dynamic->volumes, sizeof(double), all);
+    checkpoint_item(checkpoint, "is_active", dynamic->fixed.is_active, sizeof(bool), all);
+    if (checkpoint_is_reading(checkpoint) && checkpoint_is_good(checkpoint))
+        rkpm_dynamic_renew(dynamic);
 }

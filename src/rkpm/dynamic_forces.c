@@ -14,7 +14,7 @@ void rkpm_dynamic_pairs(struct dynamic *dynamic)
     const size_t count = nodal->count;
     size_t total = 0;
     if (!pairs->first)
-        pairs->first = memory_array(count + 2, sizeof *pairs->first, "pairs of nodes");
+        pairs->first = memory_array(dynamic->store->count + 2, sizeof *pairs->first, "pairs of nodes");
     int32_t *first = pairs->first;
     memset(first, 0, (count + 2) * sizeof *first);
     for (size_t n = 0; n < count; n++)
@@ -71,10 +71,14 @@ void rkpm_dynamic_forces(struct dynamic *dynamic)
     const double *gravity = dynamic->words->dynamic.gravity;
     const int axis = dynamic->words->dynamic.wall_axis;
     rkpm_dynamic_wall(dynamic);
-#pragma omp parallel for schedule(static) if (dynamic->count >= DYNAMIC_FEW_NODES)
-    for (size_t n = 0; n < dynamic->count; n++) {
+#pragma omp parallel for schedule(static) if (dynamic->nodes >= DYNAMIC_FEW_NODES)
+    for (size_t n = 0; n < dynamic->nodes; n++) {
         double force[3];
         (dynamic->dimension == 2 ? collect_2 : collect_3)(dynamic, n, force);
+        if (n >= dynamic->count) { /* what the body does to a fixed node */
+            dynamic->wall_force[n] = -force[axis];
+            continue;
+        }
         force[axis] += dynamic->wall_force[n];
         for (int a = 0; a < dynamic->dimension; a++)
             dynamic->acceleration[a][n] = force[a] / dynamic->mass + gravity[a];
@@ -95,7 +99,7 @@ THREADS_INLINE void place_node(struct dynamic *dynamic, size_t node, const int d
             v[a] += value[k] * dynamic->velocity[a][neighbour[k]];
         }
     for (int a = 0; a < d; a++) {
-        dynamic->store->real[COLUMN_POSITION][a][node] = x[a];
+        dynamic->store->real[COLUMN_POSITION][a][node] = dynamic->is_semi ? dynamic->coefficient[a][node] : x[a];
         dynamic->store->real[COLUMN_VELOCITY][a][node] = v[a];
     }
 }
@@ -116,7 +120,7 @@ void rkpm_dynamic_places(struct dynamic *dynamic)
 {
     const size_t d = (size_t)dynamic->dimension;
     for (size_t a = 0; a < d; a++)
-        for (size_t n = 0; n < dynamic->count; n++)
+        for (size_t n = 0; n < dynamic->nodes; n++)
             dynamic->place[n * d + a] = dynamic->coefficient[a][n];
 #pragma omp parallel for schedule(static) if (dynamic->count >= DYNAMIC_FEW_NODES)
     for (size_t n = 0; n < dynamic->count; n++)

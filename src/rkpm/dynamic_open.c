@@ -7,19 +7,70 @@
 
 /* --- nodes --- */
 
+/* Layers of fixed nodes of a wall, and how far it reaches to each side, in radii of the body. */
+enum { WALL_LAYERS = 3, WALL_REACH = 4 };
+
+/* Fixed nodes along an axis beside the wall's: in line with those of the body. */
+static long half_wall(const struct scene_dynamic *words)
+{
+    return (long)ceil(WALL_REACH * words->lattice.radius / words->lattice.spacing);
+}
+
+static size_t count_fixed(const struct scene_rkpm *words)
+{
+    size_t count = WALL_LAYERS;
+    if (words->dynamic.wall != RKPM_WALL_NATURAL)
+        return 0;
+    for (int a = 1; a < words->dimension; a++)
+        count *= 2 * (size_t)half_wall(&words->dynamic);
+    return count;
+}
+
+/* Below the wall's plane, from half a spacing on. */
+static void place_fixed(struct dynamic *dynamic)
+{
+    const struct scene_dynamic *words = &dynamic->words->dynamic;
+    struct dynamic_fixed *fixed = &dynamic->fixed;
+    const long half = half_wall(words);
+    for (size_t i = 0; i < fixed->count; i++) {
+        size_t rest = i / WALL_LAYERS;
+        for (int a = 0; a < dynamic->dimension; a++) {
+            double place = words->wall_position - ((double)(i % WALL_LAYERS) + 0.5) * dynamic->spacing;
+            if (a != words->wall_axis) {
+                place = words->lattice.centre[a] + ((double)((long)(rest % (size_t)(2 * half)) - half) + 0.5) * dynamic->spacing;
+                rest /= (size_t)(2 * half);
+            }
+            dynamic->rest[a][dynamic->count + i] = place;
+            fixed->low[a] = i == 0 ? place : fmin(fixed->low[a], place);
+            fixed->high[a] = i == 0 ? place : fmax(fixed->high[a], place);
+        }
+    }
+}
+
 static void create_nodes(struct dynamic *dynamic)
 {
     const struct ball_lattice *lattice = &dynamic->words->dynamic.lattice;
-    dynamic->count = (size_t)dynamic->scene->n_particles;
+    dynamic->count = dynamic->nodes = (size_t)dynamic->scene->n_particles;
+    dynamic->fixed.count = count_fixed(dynamic->words);
+    dynamic->fixed.shown = (int32_t)dynamic->count;
     dynamic->spacing = lattice->spacing;
     dynamic->volume = lattice_volume(lattice) / (double)dynamic->count;
     dynamic->mass = dynamic->material->density * dynamic->volume;
-    for (int a = 0; a < 3; a++)
-        dynamic->rest[a] = memory_array(dynamic->count, sizeof(double), "nodes");
+    const size_t all = dynamic->count + dynamic->fixed.count;
+    for (int a = 0; a < 3; a++) {
+        double **const arrays[] = {&dynamic->rest[a], &dynamic->coefficient[a], &dynamic->velocity[a], &dynamic->acceleration[a]};
+        for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
+            *arrays[i] = memory_array(all, sizeof(double), "nodes");
+    }
     lattice_points(lattice, dynamic->rest);
-    dynamic->volumes = memory_array(dynamic->count, sizeof(double), "nodes");
-    for (size_t n = 0; n < dynamic->count; n++)
-        dynamic->volumes[n] = dynamic->volume;
+    place_fixed(dynamic);
+    dynamic->volumes = memory_array(all, sizeof(double), "nodes");
+    dynamic->slot = memory_array(all, sizeof *dynamic->slot, "nodes");
+    dynamic->fixed.is_active = memory_array(all, sizeof(bool), "nodes");
+    for (size_t n = 0; n < all; n++) {
+        dynamic->volumes[n] = n < dynamic->count ? dynamic->volume : pow(dynamic->spacing, dynamic->dimension);
+        dynamic->slot[n] = (int32_t)n;
+    }
 }
 
 static void create_store(struct dynamic *dynamic)
@@ -29,14 +80,14 @@ static void create_store(struct dynamic *dynamic)
     uint64_t wanted = 0;
     for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++)
         wanted |= column_bit(columns[i]);
-    struct store *store = dynamic->store = store_open(dynamic->count, wanted);
+    struct store *store = dynamic->store = store_open(dynamic->count + dynamic->fixed.count, wanted);
     store_open_history(store, law_history(dynamic->material));
-    for (size_t n = 0; n < dynamic->count; n++) {
+    for (size_t n = 0; n < store->count; n++) {
         store->integer[COLUMN_ID][n] = store->index_of_id[n] = (int32_t)n;
-        store->real[COLUMN_VOLUME][0][n] = dynamic->volume;
-        store->real[COLUMN_MASS][0][n] = dynamic->mass;
+        store->real[COLUMN_VOLUME][0][n] = dynamic->volumes[n];
+        store->real[COLUMN_MASS][0][n] = dynamic->material->density * dynamic->volumes[n];
         for (int a = 0; a < 3; a++)
-            store->real[COLUMN_INITIAL_POSITION][a][n] = dynamic->rest[a][n];
+            store->real[COLUMN_INITIAL_POSITION][a][n] = store->real[COLUMN_POSITION][a][n] = dynamic->rest[a][n];
     }
 }
 
@@ -65,7 +116,7 @@ static int gradient_terms(const struct dynamic *dynamic)
 
 static void create_work(struct dynamic *dynamic)
 {
-    const size_t count = dynamic->count, axes = (size_t)dynamic->dimension, rows = (size_t)dynamic->nodal.rows;
+    const size_t count = dynamic->store->count, axes = (size_t)dynamic->dimension, rows = (size_t)dynamic->nodal.rows;
     double **const arrays[] = {&dynamic->trace, &dynamic->volume_before, &dynamic->terms[0], &dynamic->terms[1], &dynamic->wall_force};
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
         *arrays[i] = memory_array(count, sizeof(double), "nodes");
@@ -80,15 +131,18 @@ static void create_work(struct dynamic *dynamic)
     dynamic->gradient_stress = memory_array(count * axes * (size_t)dynamic->gradient_terms, sizeof(double), "gradients of stress");
 }
 
+/* Rows of all nodes first, so that there is room for them. */
 static void open_rows(struct dynamic *dynamic)
 {
     const struct scene_rkpm *words = dynamic->words;
     double radius[3] = {1, 1, 1};
-    for (int a = 0; a < dynamic->dimension; a++)
+    for (int a = 0; a < dynamic->dimension; a++) {
         radius[a] = words->support[a] * dynamic->spacing;
-    rkpm_nodal_open(&dynamic->nodal, dynamic->dimension, words->integration, words->gradient, dynamic->count, dynamic->rest, dynamic->volumes,
-                    NULL, radius, true);
-    rkpm_dynamic_pairs(dynamic);
+        for (size_t n = 0; n < dynamic->store->count; n++)
+            dynamic->coefficient[a][n] = dynamic->rest[a][n];
+    }
+    rkpm_nodal_open(&dynamic->nodal, dynamic->dimension, words->integration, words->gradient, dynamic->store->count,
+                    dynamic->is_semi ? dynamic->coefficient : dynamic->rest, dynamic->volumes, NULL, radius, !dynamic->is_semi);
 }
 
 struct dynamic *rkpm_dynamic_open(const struct scene *scene, struct timers *timers)
@@ -99,18 +153,15 @@ struct dynamic *rkpm_dynamic_open(const struct scene *scene, struct timers *time
     dynamic->material = &scene->materials[0].material;
     dynamic->timers = timers;
     dynamic->dimension = (int)scene->rkpm.dimension;
+    dynamic->is_semi = scene->rkpm.dynamic.mode == KERNEL_SEMI;
     const double given = scene->rkpm.dynamic.stabilisation;
     dynamic->stabilisation = given >= 0 ? given : dynamic->material->law->stabilisation;
-    for (int a = 0; a < 3; a++) {
-        double **const arrays[] = {&dynamic->coefficient[a], &dynamic->velocity[a], &dynamic->acceleration[a]};
-        for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
-            *arrays[i] = memory_array((size_t)scene->n_particles, sizeof(double), "nodes");
-    }
     create_nodes(dynamic);
     create_store(dynamic);
     open_rows(dynamic);
     create_work(dynamic);
     start_motion(dynamic);
+    rkpm_dynamic_renew(dynamic);
     rkpm_dynamic_places(dynamic);
     rkpm_dynamic_forces(dynamic);
     rkpm_dynamic_sum(dynamic);
@@ -137,6 +188,8 @@ void rkpm_dynamic_close(struct dynamic *dynamic)
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
         memory_free(arrays[i]);
     rkpm_nodal_close(&dynamic->nodal);
+    memory_free(dynamic->slot);
+    memory_free(dynamic->fixed.is_active);
     memory_free(dynamic->pairs.first);
     memory_free(dynamic->pairs.node);
     memory_free(dynamic->pairs.place);

@@ -73,6 +73,8 @@ static void sum_wall(const struct dynamic *dynamic, struct dynamic_sums *sums)
     const double face = dynamic->dimension == 2 ? dynamic->spacing : dynamic->spacing * dynamic->spacing;
     const double stiffness = dynamic->words->dynamic.wall_modulus * face;
     sums->wall_force = sums->wall_energy = 0;
+    for (size_t n = dynamic->count; n < dynamic->nodes; n++)
+        sums->wall_force += dynamic->wall_force[n];
     for (size_t n = 0; n < dynamic->count && dynamic->words->dynamic.wall == RKPM_WALL_SPRING; n++) {
         sums->wall_force += dynamic->wall_force[n];
         sums->wall_energy += 0.5 * dynamic->wall_force[n] * dynamic->wall_force[n] / stiffness;
