@@ -47,7 +47,7 @@ static void look(struct run *run)
     value[TOTAL_MOST_RATIO] = sums->most_ratio;
     value[TOTAL_WALL_FORCE] = sums->wall_force;
     value[TOTAL_WALL_ENERGY] = sums->wall_energy;
-    value[TOTAL_FEW_NEIGHBOURS] = (double)(dynamic->nodal.enlarged + dynamic->nodal.lowered);
+    value[TOTAL_FEW_NEIGHBOURS] = (double)sums->few_neighbours;
 }
 
 static bool goes_on(const struct run *run)

@@ -48,7 +48,7 @@ void summary_dynamic_end(const struct run *run, double seconds, enum status stat
     const struct dynamic_sums *sums = &dynamic->sums;
     summary_timers(dynamic->updates, &run->timers, seconds, stream);
     fprintf(stream, "volumes are %.4g to %.4g of those at the start; %ld points had too few neighbours in the last step\n", sums->least_ratio,
-            sums->most_ratio, dynamic->nodal.enlarged + dynamic->nodal.lowered);
+            sums->most_ratio, sums->few_neighbours);
     fprintf(stream, "%s at step %ld, time %.6E: kinetic energy %.9E, internal energy %.9E, of the wall %.9E\n", summary_ending(status), dynamic->step,
             dynamic->time, sums->kinetic, sums->internal, sums->wall_energy);
 }

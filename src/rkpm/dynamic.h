@@ -30,6 +30,7 @@ struct dynamic_sums {
     double angular, turn;
     double least_ratio, most_ratio; /* J */
     double wall_force;
+    long few_neighbours;         /* points with too few neighbours, those of a wall that carries nothing left out */
     long bad_node;               /* the first one with J too small or a value that is not finite; -1: none */
     bool is_finite;
 };

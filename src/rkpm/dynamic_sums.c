@@ -81,6 +81,14 @@ static void sum_wall(const struct dynamic *dynamic, struct dynamic_sums *sums)
     }
 }
 
+static long count_few(const struct dynamic *dynamic)
+{
+    long count = 0;
+    for (size_t n = 0; n < dynamic->nodes; n++)
+        count += (n < dynamic->count || dynamic->fixed.is_active[dynamic->slot[n]]) && (dynamic->nodal.is_lowered[n] || dynamic->nodal.reach[n] > 1);
+    return count;
+}
+
 void rkpm_dynamic_sum(struct dynamic *dynamic)
 {
     struct dynamic_sums *sums = &dynamic->sums;
@@ -88,6 +96,7 @@ void rkpm_dynamic_sum(struct dynamic *dynamic)
     sum_turning(dynamic, sums);
     sum_nodes(dynamic, sums);
     sum_wall(dynamic, sums);
+    sums->few_neighbours = count_few(dynamic);
 }
 
 /* --- the time step --- */
