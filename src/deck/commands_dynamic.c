@@ -84,8 +84,10 @@ void reader_rkpm_wall(struct reader *reader, const struct deck_word *word, const
     if (!reader_values(reader, place, "wall", value))
         return;
     const int axis = reader_axis(reader, &value[0]);
-    if (axis < 0)
+    if (axis < 0) {
+        reader_skip_line(reader);
         return;
+    }
     dynamic->wall_place = word->place;
     dynamic->wall_axis = axis;
     dynamic->wall_position = value[1].real;
