@@ -47,7 +47,7 @@ struct method {
     double (*updates)(const struct run *run);
 };
 
-extern const struct method method_mpm, method_sph, method_rkpm;
+extern const struct method method_mpm, method_sph, method_rkpm, method_dynamic;
 
 /* The row of a scene's method. */
 const struct method *method_of(enum method_name name);

@@ -144,6 +144,7 @@ const struct method method_mpm = {
 
 const struct method *method_of(enum method_name name)
 {
-    static const struct method *const rows[] = {[METHOD_MPM] = &method_mpm, [METHOD_SPH] = &method_sph, [METHOD_RKPM] = &method_rkpm};
+    static const struct method *const rows[] = {[METHOD_MPM] = &method_mpm, [METHOD_SPH] = &method_sph, [METHOD_RKPM] = &method_rkpm,
+                                              [METHOD_DYNAMIC] = &method_dynamic};
     return rows[name];
 }

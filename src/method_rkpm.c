@@ -41,7 +41,9 @@ static void exchange(struct run *run, struct checkpoint *checkpoint)
 
 static void start_table(struct run *run)
 {
-    fprintf(run->errors.stream, "VARIABLES = \"n\" \"nx\" \"h\" \"L2\" \"H1\" \"rateL2\" \"rateH1\"\n");
+    const bool is_elastic = run->scene->rkpm.problem == PROBLEM_ELASTIC;
+    fprintf(run->errors.stream, "VARIABLES = \"n\" \"nx\" \"h\" \"L2\" \"H1\" \"rateL2\" \"rateH1\"%s\n",
+            is_elastic ? " \"L2x\" \"L2y\" \"L2z\" \"energy\" \"tip\"" : "");
 }
 
 /* The line of the last level. */
@@ -49,9 +51,11 @@ static bool write_table(struct run *run)
 {
     const struct rkpm_level *level = &run->rkpm->levels[run->rkpm->step - 1];
     const struct rkpm_result *result = &level->result;
-    const double values[] = {level->box.spacing[0], result->l2, result->h1, result->l2_rate, result->h1_rate};
+    const double values[] = {level->box.spacing[0], result->l2, result->h1, result->l2_rate, result->h1_rate,
+                             result->l2_along[0], result->l2_along[1], result->l2_along[2], result->energy, result->tip};
+    const size_t count = run->scene->rkpm.problem == PROBLEM_ELASTIC ? sizeof values / sizeof values[0] : 5;
     fprintf(run->errors.stream, " %9zu %6ld", level->count, level->box.numbers[0]);
-    for (size_t i = 0; i < sizeof values / sizeof values[0]; i++)
+    for (size_t i = 0; i < count; i++)
         table_real(&run->errors, values[i]);
     table_end_line(&run->errors);
     return table_flush(&run->errors);

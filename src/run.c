@@ -67,7 +67,7 @@ static enum status read_deck(struct run *run)
 
 static enum status build(struct run *run)
 {
-    run->method = method_of(run->scene->method);
+    run->method = method_of(scene_method(run->scene));
     run->method->open(run);
     run->method->look(run);
     run->is_shown = memory_array(run->scene->writes_animation ? run->store->count : 0, 1, "output");

@@ -34,6 +34,7 @@ struct run_course {
 struct mpm;
 struct sph;
 struct rkpm;
+struct dynamic;
 
 enum { RUN_TABLES = 8 };
 
@@ -47,6 +48,7 @@ struct run {
     struct mpm *mpm; /* one of the solvers */
     struct sph *sph;
     struct rkpm *rkpm;
+    struct dynamic *dynamic;
     struct store *store; /* its particles */
     struct run_course course;
     struct history_totals totals;

@@ -22,7 +22,7 @@ void summary_timers(double updates, const struct timers *timers, double seconds,
 /* One line: run time, steps and cost per particle-step. */
 void summary_cost(const struct run_course *course, double updates, const struct timers *timers, double seconds, FILE *stream);
 
-/* --- of the material point method (summary.c) of smoothed particles (summary_sph.c), of problems on nodes (summary_rkpm.c) --- */
+/* --- of the material point method (summary.c) of smoothed particles (summary_sph.c), of nodes in motion (summary_dynamic.c), of problems on nodes (summary_rkpm.c) --- */
 
 /* Counts, memory, energies and the first time step. */
 void summary_start(const struct run *run, FILE *stream);
@@ -48,6 +48,10 @@ void summary_sph_start(const struct run *run, FILE *stream);
 void summary_sph_instability(const struct run *run, const struct instability *instability, FILE *stream);
 void summary_sph_end(const struct run *run, double seconds, enum status status, FILE *stream);
 
+void summary_dynamic_check(const struct run *run, FILE *stream);
+void summary_dynamic_start(const struct run *run, FILE *stream);
+void summary_dynamic_instability(const struct run *run, const struct instability *instability, FILE *stream);
+void summary_dynamic_end(const struct run *run, double seconds, enum status status, FILE *stream);
 void summary_rkpm_check(const struct run *run, FILE *stream);
 void summary_rkpm_start(const struct run *run, FILE *stream);
 void summary_rkpm_instability(const struct run *run, const struct instability *instability, FILE *stream);

@@ -11,8 +11,10 @@ static void print_box(const struct rkpm *rkpm, const struct rkpm_level *level, F
         fprintf(stream, "%s%ld", a == 0 ? " " : " x ", level->box.numbers[a]);
     for (int a = 0; a < level->box.dimension; a++)
         fprintf(stream, "%s%.6g", a == 0 ? ", spacing " : " ", level->box.spacing[a]);
+    const bool is_elastic = rkpm->words->problem == PROBLEM_ELASTIC;
     if (rkpm->words->problem != PROBLEM_APPROXIMATION)
-        fprintf(stream, "; %d unknowns, matrix of %.0f bytes at most", level->system.count, level->system.bytes);
+        fprintf(stream, "; %d unknowns, matrix of %.0f bytes at most", is_elastic ? level->solver.count : level->system.count,
+                is_elastic ? level->solver.bytes : level->system.bytes);
     fprintf(stream, "\n");
 }
 
@@ -22,7 +24,7 @@ void summary_rkpm_check(const struct run *run, FILE *stream)
     for (size_t i = 0; i < rkpm->n_levels; i++)
         print_box(rkpm, &rkpm->levels[i], stream);
     fprintf(stream, "Gauss points per cell and axis: ");
-    if (rkpm->words->problem != PROBLEM_APPROXIMATION)
+    if (rkpm->words->problem != PROBLEM_APPROXIMATION && rkpm->words->integration == INTEGRATION_GAUSS)
         fprintf(stream, "%d, ", rkpm->gauss);
     fprintf(stream, "of norms %d\n", rkpm->norm_gauss);
 }

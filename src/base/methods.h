@@ -5,14 +5,18 @@
 
 #include <stddef.h>
 
-enum method_name { METHOD_MPM, METHOD_SPH, METHOD_RKPM, METHOD_COUNT };
+/* Reproducing kernel particles have two: problems that are solved once, and motion in time. */
+enum method_name { METHOD_MPM, METHOD_SPH, METHOD_RKPM, METHOD_DYNAMIC, METHOD_COUNT };
 
 /* In a row's column `methods`; 0: all of them. */
 enum {
     METHODS_MPM = 1 << METHOD_MPM,
     METHODS_SPH = 1 << METHOD_SPH,
-    METHODS_RKPM = 1 << METHOD_RKPM,
-    METHODS_PARTICLES = METHODS_MPM | METHODS_SPH /* those that move bodies of particles in time */
+    METHODS_PROBLEM = 1 << METHOD_RKPM,
+    METHODS_DYNAMIC = 1 << METHOD_DYNAMIC,
+    METHODS_RKPM = METHODS_PROBLEM | METHODS_DYNAMIC, /* both, which decks tell apart by `prob` */
+    METHODS_PARTICLES = METHODS_MPM | METHODS_SPH,    /* those that move bodies of particles in time */
+    METHODS_TIMED = METHODS_PARTICLES | METHODS_DYNAMIC /* all that go on in time */
 };
 
 /* Whether a row with this mask has a meaning in a scene of the method. */

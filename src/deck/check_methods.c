@@ -17,7 +17,7 @@ void reader_use(struct reader *reader, const char *kind, const char *name, unsig
 
 bool reader_check_methods(struct reader *reader)
 {
-    const enum method_name method = reader->scene->method;
+    const enum method_name method = scene_method(reader->scene);
     for (size_t i = 0; i < reader->n_uses; i++) {
         const struct reader_use *use = &reader->uses[i];
         char expected[80];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What only the whole block of rkpm shows: words that are missing or need others, nodes, supports. */
 #include "base/memory.h"
+#include "deck/commands_dynamic.h"
 #include "deck/commands_rkpm.h"
 
 #include <limits.h>
@@ -10,6 +11,7 @@
 static const double MOST_NODES = 1e7, LARGEST_SUPPORT = 20;
 /* Above this, times the spacing, the trace between boundary nodes is held more than it can follow (spec 4). */
 static const double LARGEST_BETA = 1e3;
+static const double LARGEST_JITTER = 0.45;
 
 static bool was_given(const struct reader *reader, const char *name)
 {
@@ -26,8 +28,8 @@ static bool check_missing(struct reader *reader)
 {
     static const struct {
         const char *name, *expected;
-    } rows[] = {{"node", "node box x0 x1 ... nx ..."}, {"supp", "supp a"}, {"prob", "prob approx|helmholtz|poisson"},
-                {"func", "func sine|expo|wave|line"}};
+    } rows[] = {{"node", "node box x0 x1 ... nx ..."}, {"supp", "supp a"}, {"prob", "prob approx|helmholtz|poisson|elastic"},
+                {"func", "func sine|expo|wave|line|patch|beam"}};
     bool good = true;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         if (was_given(reader, rows[i].name))
@@ -43,14 +45,23 @@ static bool check_missing(struct reader *reader)
 static void check_needs(struct reader *reader)
 {
     const struct scene_rkpm *rkpm = &reader->scene->rkpm;
-    const bool is_solved = rkpm->problem != PROBLEM_APPROXIMATION;
+    const bool is_solved = rkpm->problem != PROBLEM_APPROXIMATION, is_elastic = rkpm->problem == PROBLEM_ELASTIC;
+    const bool is_gauss = rkpm->integration == INTEGRATION_GAUSS;
     const bool has_beta = rkpm->constraint == CONSTRAINT_PENALTY || rkpm->constraint == CONSTRAINT_NITSCHE;
     const struct {
         const char *name, *needed;
         bool is_there;
-    } rows[] = {{"gaus", "'prob helmholtz' or 'prob poisson'", is_solved},
-                {"cons", "'prob helmholtz' or 'prob poisson'", is_solved},
-                {"gbou", "'cons lagr', 'cons pena' or 'cons nits'", is_solved && rkpm->constraint != CONSTRAINT_TRANSFORMATION},
+    } rows[] = {{"gaus", "'inte gauss' and 'prob helmholtz', 'prob poisson' or 'prob elastic'", is_solved && is_gauss},
+                {"cons", "'prob helmholtz', 'prob poisson' or 'prob elastic'", is_solved},
+                {"gbou", "'inte gauss' and 'cons lagr', 'cons pena' or 'cons nits', or 'prob elastic'",
+                 is_solved && is_gauss && (is_elastic || rkpm->constraint != CONSTRAINT_TRANSFORMATION)},
+                {"elas", "'prob elastic'", is_elastic},
+                {"plan", "'prob elastic' and 'dime 2'", is_elastic && rkpm->dimension == 2},
+                {"forc", "'func beam'", rkpm->function == FUNCTION_BEAM},
+                {"held", "'prob elastic'", is_elastic},
+                {"inte", "'prob elastic'", is_elastic},
+                {"vci", "'prob elastic'", is_elastic},
+                {"pert", "'prob approx' or 'prob elastic'", is_elastic || !is_solved},
                 {"beta", "'cons pena' or 'cons nits'", is_solved && has_beta},
                 {"wave", "'prob helmholtz' or 'func wave'", rkpm->problem == PROBLEM_HELMHOLTZ || rkpm->function == FUNCTION_WAVE}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -60,6 +71,63 @@ static void check_needs(struct reader *reader)
         else if (is_wave && rows[i].is_there && !was_given(reader, "wave"))
             diagnostics_error(reader->diagnostics, place_of(reader, rkpm->function == FUNCTION_WAVE ? "func" : "prob"),
                               "the wave number is not given; expected 'wave k'");
+    }
+}
+
+/* Words of motion in time. */
+static void check_dynamic_words(struct reader *reader)
+{
+    static const char *const words[] = {"mode", "star", "spin", "grav", "wall", "stab", NULL};
+    const struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    for (int i = 0; words[i]; i++)
+        if (was_given(reader, words[i]))
+            diagnostics_error(reader->diagnostics, place_of(reader, words[i]), "'%s' needs 'prob dynamic'", words[i]);
+    if (rkpm->dynamic.has_lattice)
+        diagnostics_error(reader->diagnostics, place_of(reader, "node"), "'node %s' needs 'prob dynamic'; expected 'node box'",
+                          rkpm->dynamic.lattice.dimension == 2 ? "disc" : "sphere");
+}
+
+/* Functions are scalars or displacements; beams lie in a plane. */
+static void check_function(struct reader *reader)
+{
+    const struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    const bool is_elastic = rkpm->problem == PROBLEM_ELASTIC, is_displacement = rkpm->function == FUNCTION_PATCH || rkpm->function == FUNCTION_BEAM;
+    if (is_elastic != is_displacement)
+        diagnostics_error(reader->diagnostics, place_of(reader, "func"), is_elastic ? "'prob elastic' needs displacements; expected patch or beam"
+                                                                                    : "patch and beam are displacements, which need 'prob elastic'");
+    if (rkpm->function == FUNCTION_BEAM && rkpm->dimension != 2)
+        diagnostics_error(reader->diagnostics, place_of(reader, "func"), "'func beam' needs 'dime 2'");
+    if (rkpm->function == FUNCTION_BEAM && !was_given(reader, "forc"))
+        diagnostics_error(reader->diagnostics, place_of(reader, "func"), "the load of the beam is not given; expected 'forc p'");
+    if (is_elastic && !was_given(reader, "elas"))
+        diagnostics_error(reader->diagnostics, place_of(reader, "prob"), "the moduli are not given; expected 'elas young poisson'");
+}
+
+/* Nodal rules are linear; cells of nodes off the lattice are made in a plane. */
+static void check_integration(struct reader *reader)
+{
+    const struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    const bool is_gauss = rkpm->integration == INTEGRATION_GAUSS;
+    if (!is_gauss && rkpm->basis != BASIS_LINEAR)
+        diagnostics_error(reader->diagnostics, place_of(reader, "inte"), "integration at nodes is linear; expected 'basi linear', or 'inte gauss'");
+    if (rkpm->integration == INTEGRATION_MSCNI && rkpm->dimension != 2)
+        diagnostics_error(reader->diagnostics, place_of(reader, "inte"), "'inte mscni' needs 'dime 2'; expected nsci");
+    if (!is_gauss && rkpm->jitter[0] > 0 && rkpm->dimension != 2)
+        diagnostics_error(reader->diagnostics, place_of(reader, "pert"), "cells around nodes off the lattice need 'dime 2'; expected 'inte gauss', or no 'pert'");
+    if (rkpm->jitter[0] > LARGEST_JITTER)
+        diagnostics_error(reader->diagnostics, place_of(reader, "pert"), "nodes moved by up to %g spacings can meet; expected at most %g",
+                          rkpm->jitter[0], LARGEST_JITTER);
+}
+
+/* Without a held side, or with one that the box lacks, the body floats. */
+static void check_held(struct reader *reader)
+{
+    struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    for (int side = 0; side < 6; side++) {
+        if (!was_given(reader, "held"))
+            rkpm->held[side] = side < 2 * rkpm->dimension;
+        else if (rkpm->held[side] && side >= 2 * rkpm->dimension)
+            diagnostics_error(reader->diagnostics, place_of(reader, "held"), "the box has no side along %c; 'dime' is %ld", "xyz"[side / 2], rkpm->dimension);
     }
 }
 
@@ -197,9 +265,21 @@ void reader_finish_rkpm(struct reader *reader)
         diagnostics_error(reader->diagnostics, reader->method_place, "'meth rkpm' needs its block; expected 'rkpm ... ends'");
         return;
     }
-    if (reader->has_bad_rkpm || !check_missing(reader))
+    if (reader->has_bad_rkpm)
+        return;
+    if (rkpm->problem == PROBLEM_DYNAMIC) {
+        reader_finish_dynamic(reader);
+        if (was_given(reader, "supp"))
+            check_support(reader);
+        return;
+    }
+    check_dynamic_words(reader);
+    if (!check_missing(reader))
         return;
     check_needs(reader);
+    check_function(reader);
+    check_integration(reader);
+    check_held(reader);
     check_support(reader);
     if (!check_box(reader))
         return;

@@ -108,7 +108,7 @@ const struct keyword general_keywords[] = {
     {.name = "nbmp", .methods = METHODS_PARTICLES, .arguments = (const struct argument[]){{"particles", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
      .field = offsetof(struct scene, particles_declared), .apply = read_particles, .once = true,
      .doc = "number of particles; before mate, part, curv"},
-    {.name = "nmat", .methods = METHODS_PARTICLES, .arguments = (const struct argument[]){{"materials", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
+    {.name = "nmat", .methods = METHODS_TIMED, .arguments = (const struct argument[]){{"materials", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}, {0}},
      .field = offsetof(struct scene, materials_declared), .apply = read_materials, .once = true,
      .doc = "number of materials; before mate"},
     {.name = "incl", .long_name = "include",

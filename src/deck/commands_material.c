@@ -67,7 +67,7 @@ static bool read_elements(struct reader *reader, struct material *material)
             return false;
         material->elements = memory_grow(material->elements, &material->elements_capacity, (size_t)i + 1, sizeof *material->elements,
                                          "elements");
-        material->elements[material->n_elements++] = (struct law_element){.young = values[0].real, .time = values[1].real};
+        material->elements[material->n_elements++] = (struct law_element){.strength = values[0].real, .time = values[1].real};
     }
     return true;
 }
@@ -286,7 +286,7 @@ static void read_detonation(struct reader *reader, const struct deck_word *word,
 }
 
 const struct keyword material_keywords[] = {
-    {.name = "mate", .methods = METHODS_PARTICLES, .long_name = "material", .apply = read_materials,
+    {.name = "mate", .methods = METHODS_TIMED, .long_name = "material", .apply = read_materials,
      .doc = "materials: id, law and its parameters, up to the highest id",
      .details = "mate\n  id law parameters...\nThe last id has to be nmat. The laws:"},
     {.name = "seos", .methods = METHODS_MPM,
@@ -307,17 +307,19 @@ const struct keyword material_keywords[] = {
 
 void reader_finish_materials(struct reader *reader)
 {
+    static const char *const other_method[METHOD_COUNT] = {
+        [METHOD_MPM] = "law '%s' goes only with 'meth sph'",
+        [METHOD_SPH] = "law '%s' goes only with 'meth mpm'; with 'meth sph' take 'flui'",
+        [METHOD_RKPM] = "law '%s' is of no use here: the problem has no material",
+        [METHOD_DYNAMIC] = "law '%s' does not go with 'prob dynamic'; take fmax, oldr, powl or neoh"};
     const struct scene *scene = reader->scene;
     for (size_t i = 0; i < scene->n_materials && !reader->has_bad_material; i++) {
         const struct scene_material *entry = &scene->materials[i];
         if (!entry->is_given)
             diagnostics_error(reader->diagnostics, reader->materials_place,
                               "material %zu of %ld is not given in 'mate'", i + 1, scene->materials_declared);
-        else if (!methods_include(entry->material.law->methods, scene->method))
-            diagnostics_error(reader->diagnostics, entry->place,
-                              scene->method == METHOD_SPH ? "law '%s' goes only with 'meth mpm'; with 'meth sph' take 'flui'"
-                                                          : "law '%s' goes only with 'meth sph'",
-                              entry->material.law->name);
+        else if (!methods_include(entry->material.law->methods, scene_method(scene)))
+            diagnostics_error(reader->diagnostics, entry->place, other_method[scene_method(scene)], entry->material.law->name);
         else if (entry->material.law->needs_eos && !entry->material.eos)
             diagnostics_error(reader->diagnostics, entry->place,
                               "law '%s' needs an equation of state; expected 'seos %zu ...'",

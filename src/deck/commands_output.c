@@ -80,7 +80,9 @@ static void read_curve(struct reader *reader, const struct deck_word *word, cons
     struct scene_curve curve = {.result = find_result(reader, &values[0].word), .place = values[0].word.place};
     struct deck_word next;
     struct value id = {.integer = 1};
-    reader_needs(reader, word, "nbmp");
+    const bool is_nodes = reader->scene->method == METHOD_RKPM; /* whose number is known at the end of the deck */
+    if (!is_nodes)
+        reader_needs(reader, word, "nbmp");
     bool has_id = !reader_at_line_end(reader) && text_peek(reader->text, &next) && next.length > 0
                && strchr("0123456789+-.", next.text[0]);
     if (has_id) {
@@ -90,7 +92,7 @@ static void read_curve(struct reader *reader, const struct deck_word *word, cons
             return;
         id = read[0];
         curve.place = id.word.place;
-        if (!reader_check_id(reader, &id, reader->scene->particles_declared, "particle"))
+        if (!is_nodes && !reader_check_id(reader, &id, reader->scene->particles_declared, "particle"))
             return;
     }
     curve.particle = id.integer - 1;
@@ -187,20 +189,20 @@ static void read_restart(struct reader *reader, const struct deck_word *word, co
 #define LENGTH(name) {name, "length", ARGUMENT_REAL, LIMIT_NONE}
 
 const struct keyword output_keywords[] = {
-    {.name = "outt", .methods = METHODS_PARTICLES, .long_name = "outtime", .arguments = INTERVAL, .field = offsetof(struct scene, output_interval),
+    {.name = "outt", .methods = METHODS_TIMED, .long_name = "outtime", .arguments = INTERVAL, .field = offsetof(struct scene, output_interval),
      .apply = read_output_interval, .doc = "interval of the animation output; after endt, which sets it too"},
-    {.name = "rptt", .methods = METHODS_PARTICLES, .long_name = "rpttime", .arguments = INTERVAL, .field = offsetof(struct scene, report_interval),
+    {.name = "rptt", .methods = METHODS_TIMED, .long_name = "rpttime", .arguments = INTERVAL, .field = offsetof(struct scene, report_interval),
      .doc = "interval of the report lines; 0 is every step"},
     {.name = "tecp", .long_name = "tecplot", .apply = read_tecplot, .doc = "write the animation file job_anim.dat"},
     {.name = "outr", .arguments = (const struct argument[]){RESULT, {0}}, .apply = read_result,
      .doc = "adds a result to the animation file", .details = "outr result\nThe results:"},
-    {.name = "curv", .methods = METHODS_PARTICLES, .long_name = "curve", .arguments = (const struct argument[]){RESULT, {0}}, .apply = read_curve,
-     .doc = "adds a curve: a result of one particle (default 1), written every step",
+    {.name = "curv", .methods = METHODS_TIMED, .long_name = "curve", .arguments = (const struct argument[]){RESULT, {0}}, .apply = read_curve,
+     .doc = "adds a curve: a result of one particle (default 1), written every step; with meth rkpm behind meth",
      .details = "curv result [particle]     (the id on the same line)\nThe results:"},
     {.name = "curx", .methods = METHODS_PARTICLES, .arguments = (const struct argument[]){RESULT, LENGTH("x"), LENGTH("y"), LENGTH("z"), {0}},
      .apply = read_near_curve, .doc = "adds a curve of the particle within a quarter cell of a point, with meth sph of the nearest one within half a "
             "spacing; after meth and all part"},
-    {.name = "name", .methods = METHODS_PARTICLES, .long_name = "names",
+    {.name = "name", .methods = METHODS_TIMED, .long_name = "names",
      .arguments = (const struct argument[]){{"job|mpm3d", NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}}, .apply = read_names,
      .doc = "names of the energy and momentum files: job_energy.dat, or EnergyPlot.dat as in MPM3D-F90"},
     {.name = "head", .long_name = "header",
@@ -214,7 +216,7 @@ const struct keyword output_keywords[] = {
     {.name = "smoo", .methods = METHODS_MPM, .apply = read_smoothing, .doc = "adds a smoothed pressure to the ParaView files"},
     {.name = "para", .long_name = "paraview", .apply = read_paraview,
      .doc = "write ParaView files job_anim_N.vtu and job_anim.pvd; `para ascii` or `para binary` (by size). With meth sph the results of outr stand in them too"},
-    {.name = "rest", .methods = METHODS_PARTICLES, .long_name = "restart", .apply = read_restart,
+    {.name = "rest", .methods = METHODS_TIMED, .long_name = "restart", .apply = read_restart,
      .doc = "`rest every n steps` or `rest every t time`: then, and at the end, writes a checkpoint job.rest to go on "
             "from with mpm3d --restart job.rest job.mpm",
      .details = "rest every n steps\nrest every t time\nThe one before is kept as job.rest.old. A run that is interrupted by "

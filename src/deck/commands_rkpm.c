@@ -2,8 +2,10 @@
 /* The block of rkpm: nodes, shape functions, the problem and how its boundary is held. */
 #include "deck/commands_rkpm.h"
 #include "base/memory.h"
+#include "deck/commands_dynamic.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #define NUMBER(name, unit, limit) {name, unit, ARGUMENT_REAL, limit}
 #define WORD(name) ((const struct argument[]){{name, NULL, ARGUMENT_WORD, LIMIT_NONE}, {0}})
@@ -16,11 +18,19 @@ _Static_assert(sizeof(enum basis_form) == sizeof(int), "choices are stored as in
 static const char *const bases[] = {[BASIS_LINEAR] = "linear", [BASIS_BILINEAR] = "bilinear", [BASIS_QUADRATIC] = "quad", NULL};
 static const char *const gradients[] = {[GRADIENT_DIRECT] = "direct", [GRADIENT_IMPLICIT] = "implicit", NULL};
 static const char *const problems[] = {[PROBLEM_APPROXIMATION] = "approx", [PROBLEM_HELMHOLTZ] = "helmholtz",
-                                       [PROBLEM_POISSON] = "poisson", NULL};
+                                       [PROBLEM_POISSON] = "poisson", [PROBLEM_ELASTIC] = "elastic",
+                                       [PROBLEM_DYNAMIC] = "dynamic", NULL};
 static const char *const functions[] = {[FUNCTION_SINE] = "sine", [FUNCTION_EXPONENTIAL] = "expo",
-                                        [FUNCTION_WAVE] = "wave", [FUNCTION_LINEAR] = "line", NULL};
+                                        [FUNCTION_WAVE] = "wave", [FUNCTION_LINEAR] = "line", [FUNCTION_PATCH] = "patch",
+                                        [FUNCTION_BEAM] = "beam", NULL};
 static const char *const constraints[] = {[CONSTRAINT_TRANSFORMATION] = "tran", [CONSTRAINT_LAGRANGE] = "lagr",
                                           [CONSTRAINT_PENALTY] = "pena", [CONSTRAINT_NITSCHE] = "nits", NULL};
+
+static const char *const integrations[] = {[INTEGRATION_GAUSS] = "gauss", [INTEGRATION_DNI] = "dni", [INTEGRATION_SNNI] = "snni",
+                                           [INTEGRATION_NSNI] = "nsni", [INTEGRATION_SCNI] = "scni", [INTEGRATION_NSNI_SCNI] = "nsci",
+                                           [INTEGRATION_MSCNI] = "mscni", NULL};
+static const char *const planes[] = {[PLANE_STRESS] = "stress", [PLANE_STRAIN] = "strain", NULL};
+static const char *const off_on[] = {"off", "on", NULL};
 
 /* Reads the next word as a number of `argument`; false after an error, or at the end of the line. */
 static bool read_next(struct reader *reader, const struct argument *argument, const char *owner, struct value *value)
@@ -46,15 +56,20 @@ static void read_support(struct reader *reader, const struct deck_word *word, co
 /* How many numbers there are is looked at when the dimension is known. */
 static void read_nodes(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
-    static const char *const kinds[] = {"box", NULL};
+    static const char *const kinds[] = {"box", "disc", "sphere", NULL};
     static const struct argument number[] = {NUMBER("number", NULL, LIMIT_NONE), {0}};
     struct scene_rkpm *rkpm = &reader->scene->rkpm;
     struct value value;
-    (void)word;
     (void)values;
     rkpm->n_box = 0;
-    if (reader_optional(reader, kinds) < 0) {
-        reader_expect(reader, "node", "'box x0 x1 ... nx ...'");
+    rkpm->dynamic.has_lattice = false;
+    const int kind = reader_optional(reader, kinds);
+    if (kind < 0) {
+        reader_expect(reader, "node", "'box x0 x1 ... nx ...', 'disc x y radius spacing' or 'sphere x y z radius spacing'");
+        return;
+    }
+    if (kind > 0) {
+        reader_lattice(reader, kind + 1, word->place);
         return;
     }
     while (rkpm->n_box < RKPM_BOX && read_next(reader, number, "node box", &value)) {
@@ -80,6 +95,20 @@ static void read_refinements(struct reader *reader, const struct deck_word *word
     } while (read_next(reader, more, "refi", &value));
 }
 
+static void read_held(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    static const char *const names[] = {"x0", "x1", "y0", "y1", "z0", "z1", NULL};
+    struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    (void)word;
+    (void)values;
+    memset(rkpm->held, 0, sizeof rkpm->held);
+    int side = reader_optional(reader, names);
+    if (side < 0)
+        reader_expect(reader, "held", "sides of the box: x0, x1, y0, y1, z0, z1");
+    for (; side >= 0; side = reader_optional(reader, names))
+        rkpm->held[side] = true;
+}
+
 static void read_beta(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     static const char *const names[] = {"/h", NULL};
@@ -93,7 +122,8 @@ const struct keyword rkpm_keywords[] = {
      .doc = "dimensions (2)"},
     {.name = "node", .apply = read_nodes,
      .doc = "`node box x0 x1 [y0 y1 [z0 z1]] nx [ny [nz]]`: a box and the numbers of nodes along its axes, those on its boundary "
-            "included; as many axes as dimensions"},
+            "included; as many axes as dimensions. Of dynamic `node disc x y radius spacing` or `node sphere x y z radius spacing`: the points "
+            "inside of a square or cubic lattice whose centre is between points"},
     {.name = "refi", .long_name = "refine", .arguments = LIST({"nx", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}), .apply = read_refinements,
      .doc = "the problem is solved with each of these numbers of nodes along x, one after another, and those along the other axes in "
             "proportion; the results are those of the last one. Without it once, as `node` says"},
@@ -104,16 +134,35 @@ const struct keyword rkpm_keywords[] = {
             "good ones"},
     {.name = "grad", .long_name = "gradient", .arguments = WORD("direct|implicit"), .choice = CHOICE(gradients, gradient),
      .doc = "gradients of shape functions: their own (direct, default), or those that reproduce gradients of the basis (implicit)"},
-    {.name = "prob", .long_name = "problem", .arguments = WORD("approx|helmholtz|poisson"), .choice = CHOICE(problems, problem),
+    {.name = "prob", .long_name = "problem", .arguments = WORD("approx|helmholtz|poisson|elastic|dynamic"), .choice = CHOICE(problems, problem),
      .doc = "the function itself, from its values at the nodes (approx); div grad u + k^2 u = f (helmholtz); div grad u = f (poisson): f and "
-            "the values at the boundary are those of the function"},
-    {.name = "func", .long_name = "function", .arguments = WORD("sine|expo|wave|line"), .choice = CHOICE(functions, function),
+            "the values at the boundary are those of the function; displacements of an elastic body (elastic): those at held sides and the "
+            "tractions on the others are those of the function; a body that moves in time (dynamic): with mate, endt and curv. Words "
+            "that are of dynamic alone: mode, star, spin, grav, wall, stab"},
+    {.name = "func", .long_name = "function", .arguments = WORD("sine|expo|wave|line|patch|beam"), .choice = CHOICE(functions, function),
      .doc = "exact solution: sin x sin y sin z (sine), exp(x y z) (expo), sin k(x1 - x)/sin k(x1 - x0) with the wave number and ends of the box "
-            "(wave), 1 + x + 2 y + 3 z (line); y and z as far as there are dimensions"},
+            "(wave), 1 + x + 2 y + 3 z (line); y and z as far as there are dimensions. Of elastic: linear displacements (patch); in two "
+            "dimensions Timoshenko's cantilever (beam), held at the low end along x and loaded along y at the high one"},
+    {.name = "elas", .long_name = "elastic", .arguments = LIST(NUMBER("young", "stress", LIMIT_POSITIVE), NUMBER("poisson", NULL, LIMIT_POISSON)),
+     .field = FIELD(young), .doc = "Young's modulus and Poisson's ratio of elastic"},
+    {.name = "plan", .long_name = "plane", .arguments = WORD("stress|strain"), .choice = CHOICE(planes, plane),
+     .doc = "of elastic in two dimensions: no stress (stress, default) or no strain (strain) across the plane"},
+    {.name = "forc", .long_name = "force", .arguments = LIST(NUMBER("p", "force/length", LIMIT_NONE)), .field = FIELD(beam_load),
+     .doc = "load of func beam along y at its end, per thickness"},
+    {.name = "held", .apply = read_held,
+     .doc = "`held x0 x1 y0 y1 z0 z1`: sides of the box where displacements of elastic are given, as many as there are; the others bear tractions. Without it all"},
+    {.name = "pert", .long_name = "perturb", .arguments = LIST(NUMBER("s", "spacings", LIMIT_NOT_NEGATIVE), NUMBER("seed", NULL, LIMIT_NOT_NEGATIVE)),
+     .field = FIELD(jitter), .doc = "nodes inside the box are moved at random by up to s spacings along each axis, up to 0.45"},
+    {.name = "inte", .long_name = "integration", .arguments = WORD("gauss|dni|snni|nsni|scni|nsci|mscni"), .choice = CHOICE(integrations, integration),
+     .doc = "where elastic is integrated: Gauss points of cells between nodes (gauss, default); at the nodes, with a linear basis: directly "
+            "(dni), with gradients smoothed over boxes (snni) or over cells that fit together (scni), with gradients of gradients beside dni "
+            "(nsni) or scni (nsci), with triangles of cells beside scni (mscni, two dimensions). nsci is the best at nodes"},
+    {.name = "vci", .arguments = WORD("off|on"), .choice = &(const struct keyword_choice){off_on, FIELD(is_consistent), true},
+     .doc = "on: gradients of test functions are corrected so that integration passes patch tests; the matrix is not symmetric then"},
     {.name = "wave", .arguments = LIST(NUMBER("k", "1/length", LIMIT_POSITIVE)), .field = FIELD(wave_number),
      .doc = "wave number k of helmholtz and of func wave"},
     {.name = "gaus", .long_name = "gauss", .arguments = POINTS, .field = FIELD(gauss),
-     .doc = "Gauss points per cell and axis of helmholtz and poisson (2; 5 with quad)"},
+     .doc = "Gauss points per cell and axis of helmholtz, poisson and elastic (2; 5 with quad)"},
     {.name = "gbou", .long_name = "gboundary", .arguments = POINTS, .field = FIELD(boundary_gauss),
      .doc = "Gauss points per axis of a boundary segment, of lagr, pena and nits (2)"},
     {.name = "gnor", .long_name = "gnorm", .arguments = POINTS, .field = FIELD(norm_gauss),
@@ -122,7 +171,22 @@ const struct keyword rkpm_keywords[] = {
      .doc = "how values at the boundary are held: exactly at its nodes, by transformation of coefficients (tran, default), by Lagrange "
             "multipliers (lagr), by a penalty (pena), by Nitsche's method (nits)"},
     {.name = "beta", .arguments = LIST(NUMBER("beta", NULL, LIMIT_POSITIVE)), .field = FIELD(beta), .apply = read_beta,
-     .doc = "factor of pena and nits; with `/h` behind it over the smallest spacing (100 /h)"},
+     .doc = "factor of pena and nits, of elastic in Young's moduli; with `/h` behind it over the smallest spacing (100 /h)"},
+    {.name = "mode", .arguments = WORD("lagrangian|semi"), .choice = CHOICE(reader_kernel_modes, dynamic.mode),
+     .doc = "shape functions of the nodes' places at the start (lagrangian, default), or of those of now (semi), made anew in each step"},
+    {.name = "star", .long_name = "start", .arguments = LIST(NUMBER("vx", "length/time", LIMIT_NONE), NUMBER("vy", "length/time", LIMIT_NONE)),
+     .apply = reader_start_velocity, .doc = "velocity at the start, `star vx vy [vz]`"},
+    {.name = "spin", .arguments = LIST(NUMBER("omega", "1/time", LIMIT_NONE)), .field = FIELD(dynamic.spin),
+     .doc = "angular velocity at the start about z through the centre of the nodes"},
+    {.name = "grav", .long_name = "gravity", .arguments = LIST(NUMBER("gx", "length/time^2", LIMIT_NONE), NUMBER("gy", "length/time^2", LIMIT_NONE)),
+     .apply = reader_rkpm_gravity, .doc = "gravity, `grav gx gy [gz]`"},
+    {.name = "wall", .apply = reader_rkpm_wall,
+     .doc = "`wall spring axis position modulus [free|stick]`: a plane below the body, with a spring at each node that is nearer than half a "
+            "spacing; its pressure is modulus times depth; nodes slide, or stick while they touch. `wall natural axis position [keep]`, with "
+            "mode semi: three layers of nodes that don't move, which take part in the approximation and carry stress; they let a body go when "
+            "they pull at it and it moves away (keep: they don't)"},
+    {.name = "stab", .long_name = "stabilisation", .arguments = LIST(NUMBER("factor", NULL, LIMIT_NOT_NEGATIVE)), .field = FIELD(dynamic.stabilisation),
+     .doc = "factor of the moduli in what stabilises nsni (1; 0.1 with oldr and powl)"},
     {0}};
 
 _Static_assert(sizeof rkpm_keywords / sizeof *rkpm_keywords <= READER_WORDS, "reader.rkpm_places has room for all words of rkpm");

@@ -270,7 +270,7 @@ const struct keyword solving_keywords[] = {
      .details = "rkpm\n  word numbers ...\nends\nThe block says all: there are no materials, bodies or steps in time. A problem counts 1 in "
                 "time. job_error.dat has a line for each:\nnumbers of nodes n and of those along x, spacing h along x, L2 norm of the error, "
                 "that of its gradient too (H1), rates between problems. The words:"},
-    {.name = "endt", .methods = METHODS_PARTICLES, .long_name = "endtime",
+    {.name = "endt", .methods = METHODS_TIMED, .long_name = "endtime",
      .arguments = (const struct argument[]){{"time", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
      .field = offsetof(struct scene, end_time), .apply = read_end_time,
      .doc = "end time; sets the output interval too, so outt has to follow it"},
@@ -298,9 +298,9 @@ const struct keyword solving_keywords[] = {
     {.name = "mscl", .methods = METHODS_MPM, .arguments = (const struct argument[]){{"factor", NULL, ARGUMENT_REAL, LIMIT_POSITIVE}, {0}},
      .field = offsetof(struct scene, mass_scale), .apply = note_mass_scale,
      .doc = "all masses times a factor, for larger steps where inertia does not matter; weight stays (1)"},
-    {.name = "dtfx", .methods = METHODS_PARTICLES, .arguments = (const struct argument[]){{"step", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
+    {.name = "dtfx", .methods = METHODS_TIMED, .arguments = (const struct argument[]){{"step", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
      .field = offsetof(struct scene, fixed_step), .apply = note_fixed_step, .doc = "fixed time step in place of dtsc, checked against the stable one; 0: none"},
-    {.name = "dtmi", .methods = METHODS_PARTICLES, .arguments = (const struct argument[]){{"step", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
+    {.name = "dtmi", .methods = METHODS_TIMED, .arguments = (const struct argument[]){{"step", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},
      .field = offsetof(struct scene, least_step),
      .doc = "the run is stopped as unstable when its time step falls below this one; 0: a millionth of the first one"},
     {.name = "lite", .methods = METHODS_MPM, .arguments = (const struct argument[]){{"share", NULL, ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},

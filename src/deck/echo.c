@@ -44,7 +44,7 @@ static void echo_plain(const struct scene *scene, FILE *stream, enum category ca
     const struct keyword *table = keyword_table(category);
     for (const struct keyword *row = table; row->name; row++) {
         bool is_given = scene->given[category] >> (row - table) & 1;
-        if (!methods_include(row->methods, scene->method))
+        if (!methods_include(row->methods, scene_method(scene)))
             continue;
         if (row->choice)
             fprintf(stream, "%s %s%s\n", row->name, echo_choice(scene, row->choice), is_given ? "" : "   ! default");
@@ -148,7 +148,7 @@ static void echo_elements(const struct material *material, FILE *stream)
         return;
     fprintf(stream, " %d", material->n_elements);
     for (int i = 0; i < material->n_elements; i++)
-        echo_numbers(stream, (const double[]){material->elements[i].young, material->elements[i].time}, 2);
+        echo_numbers(stream, (const double[]){material->elements[i].strength, material->elements[i].time}, 2);
     for (int i = 0; material->law->words[i]; i++)
         if (material->words >> i & 1)
             fprintf(stream, " %s", material->law->words[i]);
@@ -316,7 +316,7 @@ static void echo_velocities(const struct scene *scene, FILE *stream, bool whole)
 static void echo_output(const struct scene *scene, FILE *stream)
 {
     echo_plain(scene, stream, CATEGORY_OUTPUT);
-    if (scene->method != METHOD_RKPM)
+    if (scene_method(scene) != METHOD_RKPM)
         fprintf(stream, "name %s\n", scene->bare_names ? "mpm3d" : "job");
     fprintf(stream, "head %s\n", scene->bare_headers ? "mpm3d" : "tecplot");
     if (scene->writes_animation)
@@ -421,6 +421,8 @@ void echo_scene(const struct scene *scene, FILE *stream, bool whole)
     echo_holds(scene, stream);
     echo_solving(scene, stream);
     if (scene->method == METHOD_RKPM) {
+        if (scene_method(scene) == METHOD_DYNAMIC)
+            echo_materials(scene, stream);
         echo_rkpm(scene, stream);
         echo_output(scene, stream);
         fprintf(stream, "endi\n");

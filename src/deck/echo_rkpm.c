@@ -14,14 +14,32 @@ static void print_numbers(FILE *stream, const char *words, const double *values,
 /* Words that only some problems have are left out of the others. */
 static bool has_word(const struct scene_rkpm *rkpm, const char *name)
 {
-    const bool is_solved = rkpm->problem != PROBLEM_APPROXIMATION;
+    static const char *const dynamic[] = {"mode", "spin", "stab", NULL};
+    const bool is_dynamic = rkpm->problem == PROBLEM_DYNAMIC, is_solved = rkpm->problem != PROBLEM_APPROXIMATION && !is_dynamic;
     const bool has_beta = rkpm->constraint == CONSTRAINT_PENALTY || rkpm->constraint == CONSTRAINT_NITSCHE;
+    for (int i = 0; dynamic[i]; i++)
+        if (strcmp(name, dynamic[i]) == 0)
+            return is_dynamic && (strcmp(name, "stab") != 0 || rkpm->dynamic.stabilisation >= 0);
+    if (is_dynamic && strcmp(name, "inte") == 0)
+        return true;
+    if (is_dynamic && (strcmp(name, "func") == 0 || strcmp(name, "wave") == 0))
+        return false;
+    if (strcmp(name, "grad") == 0)
+        return !is_dynamic || rkpm->integration == INTEGRATION_DNI;
     if (strcmp(name, "cons") == 0)
         return is_solved;
     if (strcmp(name, "beta") == 0)
         return is_solved && has_beta;
     if (strcmp(name, "wave") == 0)
         return rkpm->problem == PROBLEM_HELMHOLTZ || rkpm->function == FUNCTION_WAVE;
+    if (strcmp(name, "plan") == 0)
+        return rkpm->problem == PROBLEM_ELASTIC && rkpm->dimension == 2;
+    if (strcmp(name, "elas") == 0 || strcmp(name, "inte") == 0 || strcmp(name, "vci") == 0)
+        return rkpm->problem == PROBLEM_ELASTIC;
+    if (strcmp(name, "forc") == 0)
+        return rkpm->function == FUNCTION_BEAM;
+    if (strcmp(name, "pert") == 0)
+        return rkpm->jitter[0] > 0;
     if (strcmp(name, "gaus") == 0)
         return rkpm->gauss > 0;
     if (strcmp(name, "gbou") == 0)
@@ -37,8 +55,40 @@ static void echo_word(const struct scene *scene, const struct keyword *row, FILE
     else if (row->arguments[0].kind == ARGUMENT_INTEGER)
         fprintf(stream, "  %s %ld", row->name, *(const long *)(const void *)field);
     else
-        print_numbers(stream, row->name, (const double *)(const void *)field, 1);
+        print_numbers(stream, row->name, (const double *)(const void *)field, argument_count(row->arguments));
     fputs(strcmp(row->name, "beta") == 0 && scene->rkpm.beta_over_spacing ? " /h\n" : "\n", stream);
+}
+
+static void echo_dynamic(const struct scene_dynamic *dynamic, FILE *stream)
+{
+    const struct ball_lattice *lattice = &dynamic->lattice;
+    print_numbers(stream, lattice->dimension == 2 ? "node disc" : "node sphere", lattice->centre, lattice->dimension);
+    echo_numbers(stream, &lattice->radius, 1);
+    echo_numbers(stream, &lattice->spacing, 1);
+    fputc('\n', stream);
+    print_numbers(stream, "star", dynamic->velocity, 3);
+    fputc('\n', stream);
+    print_numbers(stream, "grav", dynamic->gravity, 3);
+    fputc('\n', stream);
+    if (dynamic->wall == RKPM_WALL_NONE)
+        return;
+    fprintf(stream, "  wall %s %c", dynamic->wall == RKPM_WALL_SPRING ? "spring" : "natural", "xyz"[dynamic->wall_axis]);
+    echo_numbers(stream, &dynamic->wall_position, 1);
+    if (dynamic->wall == RKPM_WALL_SPRING)
+        echo_numbers(stream, &dynamic->wall_modulus, 1);
+    fputs(dynamic->wall == RKPM_WALL_NATURAL ? (dynamic->wall_releases ? "\n" : " keep\n") : dynamic->wall_sticks ? " stick\n" : " free\n", stream);
+}
+
+static void echo_held(const struct scene_rkpm *rkpm, FILE *stream)
+{
+    static const char *const sides[] = {"x0", "x1", "y0", "y1", "z0", "z1"};
+    if (rkpm->problem != PROBLEM_ELASTIC)
+        return;
+    fprintf(stream, "  held");
+    for (int side = 0; side < 6; side++)
+        if (rkpm->held[side])
+            fprintf(stream, " %s", sides[side]);
+    fputc('\n', stream);
 }
 
 void echo_rkpm(const struct scene *scene, FILE *stream)
@@ -48,8 +98,14 @@ void echo_rkpm(const struct scene *scene, FILE *stream)
     for (const struct keyword *row = rkpm_keywords; row->name; row++)
         if ((row->choice || row->field != KEYWORD_NO_FIELD) && has_word(rkpm, row->name))
             echo_word(scene, row, stream);
+    echo_held(rkpm, stream);
     print_numbers(stream, "supp", rkpm->support, rkpm->n_support);
     fputc('\n', stream);
+    if (rkpm->problem == PROBLEM_DYNAMIC) {
+        echo_dynamic(&rkpm->dynamic, stream);
+        fprintf(stream, "ends\n");
+        return;
+    }
     print_numbers(stream, "node box", rkpm->box_read, rkpm->n_box);
     fputs(rkpm->n_refinements > 0 ? "\n  refi" : "\n", stream);
     for (size_t i = 0; i < rkpm->n_refinements; i++)

@@ -20,7 +20,7 @@ struct scene *scene_open(void)
     scene->building = (struct scene_building){.settling = -1, .until = -1, .axis = 2};
     scene->sph = (struct scene_sph){.dimension = 3, .smoothing = 1.2, .wide_smoothing = 1.8, .density_diffusion = 0.1,
                                     .corrects_depth = true, .holds_films = true, .opens_expansion = true, .surface_threshold = 0.1, .melt_sound_factor = 1, .seed = 1};
-    scene->rkpm = (struct scene_rkpm){.dimension = 2, .beta = 100, .beta_over_spacing = true};
+    scene->rkpm = (struct scene_rkpm){.dimension = 2, .beta = 100, .beta_over_spacing = true, .dynamic = {.stabilisation = -1}};
     return scene;
 }
 
@@ -55,4 +55,9 @@ void scene_close(struct scene *scene)
     memory_free(scene->rkpm.refinement_places);
     memory_free(scene->rkpm.levels);
     memory_free(scene);
+}
+
+enum method_name scene_method(const struct scene *scene)
+{
+    return scene->method == METHOD_RKPM && scene->rkpm.problem == PROBLEM_DYNAMIC ? METHOD_DYNAMIC : scene->method;
 }

@@ -196,6 +196,9 @@ struct scene {
     struct scene_rkpm rkpm;
 };
 
+/* The method of a scene; that of reproducing kernel particles by its problem. */
+enum method_name scene_method(const struct scene *scene);
+
 /* An empty scene with the defaults of the dialect. */
 struct scene *scene_open(void);
 void scene_close(struct scene *scene);

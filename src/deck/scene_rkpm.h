@@ -3,6 +3,7 @@
 #ifndef DECK_SCENE_RKPM_H
 #define DECK_SCENE_RKPM_H
 
+#include "deck/scene_dynamic.h"
 #include "deck/text.h"
 
 #include <stdbool.h>
@@ -10,11 +11,24 @@
 
 enum basis_form { BASIS_LINEAR, BASIS_BILINEAR, BASIS_QUADRATIC };
 enum gradient_form { GRADIENT_DIRECT, GRADIENT_IMPLICIT, GRADIENT_NONE };
-enum rkpm_problem { PROBLEM_APPROXIMATION, PROBLEM_HELMHOLTZ, PROBLEM_POISSON };
+/* Where the domain is integrated: Gauss points of cells, or the nodes (spec rkpm 3): directly (dni), with gradients smoothed
+ * over boxes that don't fit together (snni) or over cells that do (scni); with gradients' gradients behind those of dni
+ * (nsni) or of scni (nsci), with those of a cell's triangles behind those of scni (mscni). */
+enum integration_form {
+    INTEGRATION_GAUSS,
+    INTEGRATION_DNI,
+    INTEGRATION_SNNI,
+    INTEGRATION_NSNI,
+    INTEGRATION_SCNI,
+    INTEGRATION_NSNI_SCNI,
+    INTEGRATION_MSCNI
+};
+enum rkpm_problem { PROBLEM_APPROXIMATION, PROBLEM_HELMHOLTZ, PROBLEM_POISSON, PROBLEM_ELASTIC, PROBLEM_DYNAMIC };
+enum plane_mode { PLANE_STRESS, PLANE_STRAIN };
 
 /* Exact solutions: product of sines, exponential of the product of coordinates, sine wave that is 1 at the low end and 0 at
- * the high one, linear function. */
-enum rkpm_function { FUNCTION_SINE, FUNCTION_EXPONENTIAL, FUNCTION_WAVE, FUNCTION_LINEAR };
+ * the high one, linear function; displacements that are linear, and those of Timoshenko's cantilever. */
+enum rkpm_function { FUNCTION_SINE, FUNCTION_EXPONENTIAL, FUNCTION_WAVE, FUNCTION_LINEAR, FUNCTION_PATCH, FUNCTION_BEAM };
 
 /* How values at the boundary are prescribed. */
 enum constraint_form { CONSTRAINT_TRANSFORMATION, CONSTRAINT_LAGRANGE, CONSTRAINT_PENALTY, CONSTRAINT_NITSCHE };
@@ -25,6 +39,7 @@ struct scene_rkpm {
     long dimension;
     enum basis_form basis;
     enum gradient_form gradient;
+    enum integration_form integration;
     double support[3];    /* a: support radius over the spacing, by axis */
     int n_support;        /* numbers given: 0, 1 (of all axes) or as many as axes */
     double box[6];        /* x0 x1 y0 y1 z0 z1 */
@@ -44,6 +59,13 @@ struct scene_rkpm {
     enum constraint_form constraint;
     double beta;          /* of penalty and Nitsche's method */
     bool beta_over_spacing;
+    struct scene_dynamic dynamic;
+    bool is_consistent;   /* test functions' gradients are corrected (vci) */
+    double young, poisson; /* consecutive: read as one list */
+    enum plane_mode plane;
+    double beam_load;     /* of func beam, along y at its free end */
+    bool held[6];         /* sides where displacements are given: low and high of each axis */
+    double jitter[2];     /* random moves of inner nodes, in spacings; the seed */
     struct deck_place place; /* of the word rkpm */
 };
 

@@ -17,7 +17,7 @@ struct eos;
 
 /* An element of a viscoelastic law: a spring and a dashpot in a row. */
 struct law_element {
-    double young, time; /* as the deck has them: modulus and relaxation time */
+    double strength, time; /* as the deck has them: modulus, or viscosity, and relaxation time */
     double shear, bulk; /* what follows from them; no bulk where pressure does not relax */
 };
 
@@ -73,7 +73,7 @@ struct law_batch {
     double *restrict lighting_time;
     double *restrict deformation[9];    /* deformation gradient less 1, already that of this step */
     double *restrict first_stress[9];   /* first Piola-Kirchhoff stress, total Lagrangian only */
-    double *const *history;             /* stresses of elements, six components each, from history_from on */
+    double *const *history;             /* the law's own columns, then six components for each element, from history_from on */
     int history_from;
 };
 
@@ -84,12 +84,14 @@ struct law {
     const struct argument *parameters;
     const struct argument *element; /* behind the parameters their number n, and n times these; NULL: no elements */
     const char *const *words;       /* that may stand behind all numbers, ended by NULL; NULL: none */
+    int history;            /* columns of history beside those of elements */
     unsigned methods;       /* METHODS_... that it belongs to */
     enum column columns[8]; /* columns beyond those of every MPM scene, ended by COLUMN_NONE */
     bool follows_time;      /* the stress changes also at rest */
     bool rotates;           /* the old stress is rotated before the update (spec 6.3) */
     bool needs_eos;         /* pressure and energy come from an equation of state (spec 6.7) */
     bool keeps_equivalent;  /* writes the column of the von Mises stress itself */
+    double stabilisation;   /* factor of the moduli in what stabilises integration at nodes (spec rkpm 7) */
     double viscous_work;    /* how often the viscous work is counted (spec 6.6; 8.1 john) */
     const char *later;      /* not NULL: known word without its feature; says what is missing */
     /* Derives the fields of a material from its parameters. Returns NULL, or what is wrong. */
@@ -114,10 +116,10 @@ void law_prepare_elastic(struct material *material, bool has_viscous_speed);
 /* The same for Young's modulus and Poisson's ratio that are not parameters; takes the density from these. */
 void law_set_elastic(struct material *material, double young, double poisson, bool has_viscous_speed);
 
-/* Columns of a material's history: six for each element. */
+/* Columns of a material's history: the law's own, and six for each element. */
 static inline int law_history(const struct material *material)
 {
-    return 6 * material->n_elements;
+    return material->law->history + 6 * material->n_elements;
 }
 
 /* Rotation of the old stress by the spin increments, explicit (spec 6.3). */
@@ -150,6 +152,6 @@ THREADS_INLINE void law_elastic_trial(const struct law_batch *batch, int j, doub
     }
 }
 
-extern const struct law law_elas, law_pla1, law_pla2, law_john, law_sjc, law_sjcf, law_jcf, law_hiex, law_null, law_dpm, law_neoh, law_maxw, law_flui;
+extern const struct law law_elas, law_pla1, law_pla2, law_john, law_sjc, law_sjcf, law_jcf, law_hiex, law_null, law_dpm, law_neoh, law_maxw, law_fmax, law_oldr, law_powl, law_flui;
 
 #endif

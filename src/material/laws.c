@@ -6,7 +6,8 @@
 #include <strings.h>
 
 static const struct law *const rows[] = {&law_elas, &law_pla1, &law_pla2, &law_john, &law_sjc, &law_sjcf,
-                                         &law_jcf,  &law_hiex, &law_null, &law_dpm,  &law_neoh, &law_maxw, &law_flui, NULL};
+                                         &law_jcf,  &law_hiex, &law_null, &law_dpm,  &law_neoh, &law_maxw,
+                                         &law_fmax, &law_oldr, &law_powl, &law_flui, NULL};
 
 const struct law *law_find(const char *name)
 {

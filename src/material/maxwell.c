@@ -25,9 +25,9 @@ static const char *prepare(struct material *material)
         return "there is one rule for the step; expected exponential or midpoint";
     for (int i = 0; i < material->n_elements; i++) {
         struct law_element *element = &material->elements[i];
-        element->shear = element->young / (2 * (1 + poisson));
-        element->bulk = material->words & WORD_VOLUME ? element->young / (3 * (1 - 2 * poisson)) : 0;
-        young += element->young;
+        element->shear = element->strength / (2 * (1 + poisson));
+        element->bulk = material->words & WORD_VOLUME ? element->strength / (3 * (1 - 2 * poisson)) : 0;
+        young += element->strength;
     }
     law_set_elastic(material, young, poisson, true);
     return NULL;

@@ -57,12 +57,13 @@ static void update(const struct law_batch *batch)
 
 const struct law law_neoh = {
     .name = "neoh",
-    .methods = METHODS_MPM,
+    .methods = METHODS_MPM | METHODS_DYNAMIC,
     .doc = "neo-Hookean hyperelasticity; switches UVFp on",
     .parameters = (const struct argument[]){{"density", "mass/length^3", ARGUMENT_REAL, LIMIT_POSITIVE},
                                             {"young", "stress", ARGUMENT_REAL, LIMIT_POSITIVE},
                                             {"poisson", NULL, ARGUMENT_REAL, LIMIT_POISSON}, {0}},
     .columns = {COLUMN_DEFORMATION, COLUMN_NONE},
+    .stabilisation = 1,
     .viscous_work = 1,
     .prepare = prepare,
     .update = update,

@@ -210,7 +210,7 @@ enum { PARTICLE_ARRAYS = sizeof particle_arrays / sizeof particle_arrays[0] };
 static bool has_array(const struct scene *scene, const struct particle_array *array)
 {
     const unsigned methods = array->result ? result_find(array->result)->methods : array->methods;
-    return methods_include(methods, scene->method);
+    return methods_include(methods, scene_method(scene));
 }
 
 /* Whether a result of the deck stands in the table above, under a name that users of MPM3D know. */

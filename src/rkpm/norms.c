@@ -36,13 +36,18 @@ static double rate(const struct rkpm *rkpm, const struct rkpm_level *level, doub
     return finer == 1 || !(before > 0 && now > 0) ? 0 : log(before / now) / log(finer);
 }
 
-void rkpm_measure(struct rkpm *rkpm, struct rkpm_level *level)
+static void measure_field(struct rkpm *rkpm, struct rkpm_level *level)
 {
     struct norms norms = {rkpm, level, 0, 0};
-    struct rkpm_result *result = &level->result;
     quadrature_inside(&level->box, rkpm->norm_gauss, add_error, &norms);
-    result->l2 = sqrt(norms.value);
-    result->h1 = sqrt(norms.value + norms.gradient);
+    level->result.l2 = sqrt(norms.value);
+    level->result.h1 = sqrt(norms.value + norms.gradient);
+}
+
+void rkpm_measure(struct rkpm *rkpm, struct rkpm_level *level)
+{
+    struct rkpm_result *result = &level->result;
+    rkpm->words->problem == PROBLEM_ELASTIC ? rkpm_elastic_measure(rkpm, level) : measure_field(rkpm, level);
     result->l2_rate = rate(rkpm, level, level[level == rkpm->levels ? 0 : -1].result.l2, result->l2);
     result->h1_rate = rate(rkpm, level, level[level == rkpm->levels ? 0 : -1].result.h1, result->h1);
     result->enlarged = level->shape.enlarged;

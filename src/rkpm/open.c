@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From the scene to levels with room for all that they need. */
 #include "base/memory.h"
+#include "base/scatter.h"
 #include "rkpm/rkpm.h"
 
 #include <math.h>
@@ -22,20 +23,6 @@ static void create_box(struct rkpm_level *level, const struct scene_rkpm *words,
     }
 }
 
-static void create_nodes(struct rkpm_level *level)
-{
-    const struct node_box *box = &level->box;
-    for (int a = 0; a < 3; a++)
-        level->x[a] = memory_array(level->count, sizeof(double), "nodes");
-    for (size_t i = 0; i < level->count; i++) {
-        size_t rest = i;
-        for (int a = 0; a < box->dimension; a++) {
-            level->x[a][i] = box->low[a] + box->spacing[a] * (double)(rest % (size_t)box->numbers[a]);
-            rest /= (size_t)box->numbers[a];
-        }
-    }
-}
-
 bool rkpm_is_boundary(const struct node_box *box, size_t node)
 {
     bool is_boundary = false;
@@ -47,19 +34,40 @@ bool rkpm_is_boundary(const struct node_box *box, size_t node)
     return is_boundary;
 }
 
+/* On the lattice; those inside moved at random by up to `jitter` spacings along each axis. */
+static void create_nodes(struct rkpm_level *level, const double jitter[2])
+{
+    const struct node_box *box = &level->box;
+    for (int a = 0; a < 3; a++)
+        level->x[a] = memory_array(level->count, sizeof(double), "nodes");
+    for (size_t i = 0; i < level->count; i++) {
+        size_t rest = i;
+        for (int a = 0; a < box->dimension; a++) {
+            level->x[a][i] = box->low[a] + box->spacing[a] * (double)(rest % (size_t)box->numbers[a]);
+            if (jitter[0] > 0 && !rkpm_is_boundary(box, i))
+                level->x[a][i] += 2 * jitter[0] * box->spacing[a] * scatter((uint64_t)jitter[1], i, (uint64_t)a);
+            rest /= (size_t)box->numbers[a];
+        }
+    }
+}
+
 static void open_level(struct rkpm *rkpm, struct rkpm_level *level, const long numbers[3])
 {
     const struct scene_rkpm *words = rkpm->words;
     double radius[3] = {1, 1, 1}, smallest = INFINITY;
     create_box(level, words, numbers);
-    create_nodes(level);
+    create_nodes(level, words->jitter);
     for (int a = 0; a < level->box.dimension; a++) {
         radius[a] = words->support[a] * level->box.spacing[a];
         smallest = fmin(smallest, level->box.spacing[a]);
     }
     level->beta = words->beta_over_spacing ? words->beta / smallest : words->beta;
     rkpm_shape_open(&level->shape, level->box.dimension, words->basis, level->count, level->x, radius);
-    level->coefficient = memory_array(level->count, sizeof(double), "coefficients");
+    level->coefficient = memory_array(level->count * (words->problem == PROBLEM_ELASTIC ? (size_t)words->dimension : 1), sizeof(double), "coefficients");
+    if (words->problem == PROBLEM_ELASTIC) {
+        rkpm_elastic_open(rkpm, level);
+        return;
+    }
     if (words->problem != PROBLEM_APPROXIMATION)
         rkpm_system_open(rkpm, level);
     level->shape.enlarged = level->shape.lowered = 0;
@@ -68,7 +76,8 @@ static void open_level(struct rkpm *rkpm, struct rkpm_level *level, const long n
 /* The last level's nodes, as output sees them. */
 static void create_store(struct rkpm *rkpm)
 {
-    static const enum column columns[] = {COLUMN_POSITION, COLUMN_ID, COLUMN_BODY, COLUMN_COEFFICIENT, COLUMN_FIELD, COLUMN_EXACT};
+    static const enum column columns[] = {COLUMN_POSITION, COLUMN_ID, COLUMN_BODY, COLUMN_COEFFICIENT, COLUMN_FIELD, COLUMN_EXACT,
+                                          COLUMN_INITIAL_POSITION};
     const struct rkpm_level *level = &rkpm->levels[rkpm->n_levels - 1];
     uint64_t wanted = 0;
     for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++)
@@ -78,8 +87,9 @@ static void create_store(struct rkpm *rkpm)
         const double x[3] = {level->x[0][i], level->x[1][i], level->x[2][i]};
         store->integer[COLUMN_ID][i] = store->index_of_id[i] = (int32_t)i;
         for (int a = 0; a < 3; a++)
-            store->real[COLUMN_POSITION][a][i] = x[a];
-        store->real[COLUMN_EXACT][0][i] = field_value(&rkpm->field, x);
+            store->real[COLUMN_POSITION][a][i] = store->real[COLUMN_INITIAL_POSITION][a][i] = x[a];
+        if (rkpm->words->problem != PROBLEM_ELASTIC)
+            store->real[COLUMN_EXACT][0][i] = field_value(&rkpm->field, x);
     }
 }
 
@@ -98,6 +108,8 @@ struct rkpm *rkpm_open(const struct scene *scene, struct timers *timers)
     rkpm->words = words;
     rkpm->timers = timers;
     rkpm->field = (struct field){words->function, (int)words->dimension, words->wave_number, {words->box[0], words->box[1]}};
+    if (words->problem == PROBLEM_ELASTIC)
+        rkpm->deformation = deformation_of(words);
     rkpm->gauss = or_default(words->gauss, words->basis == BASIS_QUADRATIC ? 5 : 2);
     rkpm->boundary_gauss = or_default(words->boundary_gauss, 2);
     rkpm->norm_gauss = or_default(words->norm_gauss, words->problem == PROBLEM_HELMHOLTZ ? 5 : 2);
@@ -118,6 +130,7 @@ static void close_level(struct rkpm_level *level)
     rkpm_shape_close(&level->shape);
     memory_free(level->coefficient);
     rkpm_system_close(&level->system);
+    rkpm_elastic_close(level);
 }
 
 void rkpm_close(struct rkpm *rkpm)

@@ -9,9 +9,11 @@
 #include "base/instability.h"
 #include "base/timers.h"
 #include "deck/scene.h"
+#include "rkpm/deformation.h"
 #include "rkpm/field.h"
 #include "rkpm/quadrature.h"
 #include "rkpm/shape.h"
+#include "rkpm/solver.h"
 
 struct checkpoint;
 
@@ -30,6 +32,8 @@ struct rkpm_system {
 /* What came out of a level. */
 struct rkpm_result {
     double l2, h1;           /* norms of the error; H1: of the error and its gradient */
+    double l2_along[3], energy; /* of displacements by axis; of strains, over the energy of the exact ones */
+    double tip;              /* displacement over the exact one, along the last axis, in the middle of the high face along x */
     double l2_rate, h1_rate; /* orders between the level before and this one; 0 for the first */
     long enlarged, lowered;  /* points with larger supports, or a lower order */
 };
@@ -41,8 +45,10 @@ struct rkpm_level {
     double *x[3];
     struct rkpm_shape shape;
     double beta;             /* of penalty and Nitsche's method */
-    double *coefficient;     /* d */
+    double *coefficient;     /* d; of elastic problems as many per node as there are axes */
     struct rkpm_system system;
+    struct body body;      /* of elastic problems, with the solver of its system */
+    struct solver solver;
     struct rkpm_result result;
 };
 
@@ -52,6 +58,7 @@ struct rkpm {
     struct timers *timers;
     struct store *store;     /* the nodes of the last level */
     struct field field;
+    struct deformation deformation; /* of elastic problems */
     int gauss, boundary_gauss, norm_gauss; /* points per axis */
     struct rkpm_level *levels;
     size_t n_levels;
@@ -81,6 +88,13 @@ bool rkpm_is_boundary(const struct node_box *box, size_t node);
 void rkpm_system_open(struct rkpm *rkpm, struct rkpm_level *level);
 void rkpm_system_close(struct rkpm_system *system);
 void rkpm_system_solve(struct rkpm *rkpm, struct rkpm_level *level);
+
+/* The same of elastic problems; their norms; displacements for output. */
+void rkpm_elastic_open(struct rkpm *rkpm, struct rkpm_level *level);
+void rkpm_elastic_close(struct rkpm_level *level);
+void rkpm_elastic_solve(struct rkpm *rkpm, struct rkpm_level *level);
+void rkpm_elastic_measure(struct rkpm *rkpm, struct rkpm_level *level);
+void rkpm_elastic_show(struct rkpm *rkpm, struct rkpm_level *level);
 
 /* Norms of the error of a level. */
 void rkpm_measure(struct rkpm *rkpm, struct rkpm_level *level);

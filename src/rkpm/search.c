@@ -3,9 +3,12 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Nodes far apart get larger cells: no more of them than this along an axis. */
 static const double MOST_CELLS = 500;
+/* And no more than so many per node. */
+static const double CELLS_PER_NODE = 4, LEAST_CELLS = 64;
 
 /* Cells over the extent of the nodes. */
 static void choose_cells(struct search *search, size_t count, double *const x[3], const double size[3])
@@ -20,6 +23,11 @@ static void choose_cells(struct search *search, size_t count, double *const x[3]
         search->size[a] = a < search->dimension ? fmax(size[a], (high - low) / MOST_CELLS) : 1;
         search->cells[a] = (int)floor((high - low) / search->size[a]) + 1;
     }
+    while ((double)search->cells[0] * search->cells[1] * search->cells[2] > CELLS_PER_NODE * (double)count + LEAST_CELLS)
+        for (int a = 0; a < search->dimension; a++) {
+            search->cells[a] = (search->cells[a] + 1) / 2;
+            search->size[a] *= 2;
+        }
 }
 
 static size_t cell_of(const struct search *search, double *const x[3], size_t node)
@@ -36,8 +44,9 @@ static size_t cell_of(const struct search *search, double *const x[3], size_t no
 static void sort_nodes(struct search *search, size_t count, double *const x[3])
 {
     const size_t cells = (size_t)search->cells[0] * (size_t)search->cells[1] * (size_t)search->cells[2];
-    search->first = memory_array(cells + 1, sizeof *search->first, "cells of nodes");
-    search->node = memory_array(count, sizeof *search->node, "cells of nodes");
+    search->first = memory_grow(search->first, &search->first_capacity, cells + 1, sizeof *search->first, "cells of nodes");
+    search->node = memory_grow(search->node, &search->node_capacity, count, sizeof *search->node, "cells of nodes");
+    memset(search->first, 0, (cells + 1) * sizeof *search->first);
     for (size_t i = 0; i < count; i++)
         search->first[cell_of(search, x, i) + 1]++;
     for (size_t c = 0; c < cells; c++)
@@ -55,6 +64,11 @@ static void sort_nodes(struct search *search, size_t count, double *const x[3])
 void search_open(struct search *search, int dimension, size_t count, double *const x[3], const double size[3])
 {
     *search = (struct search){.dimension = dimension};
+    search_renew(search, count, x, size);
+}
+
+void search_renew(struct search *search, size_t count, double *const x[3], const double size[3])
+{
     choose_cells(search, count, x, size);
     sort_nodes(search, count, x);
 }

@@ -12,11 +12,15 @@ struct search {
     int cells[3];
     int32_t *first;         /* per cell: place of its first node in `node`; one more at the end */
     int32_t *node;          /* by cells, in a cell by number */
+    size_t first_capacity, node_capacity;
 };
 
-/* Cells of the given sides around nodes x[axis][node]. */
+/* Cells of the given sides around nodes x[axis][node], which lie anywhere. */
 void search_open(struct search *search, int dimension, size_t count, double *const x[3], const double size[3]);
 void search_close(struct search *search);
+
+/* The same after nodes have moved. Room is kept from call to call, and grows only where the nodes need more cells. */
+void search_renew(struct search *search, size_t count, double *const x[3], const double size[3]);
 
 /* The cells that reach nearer than `reach` cells' sides to a point: from[axis] to to[axis]; empty where to < from. */
 void search_range(const struct search *search, const double point[3], double reach, int from[3], int to[3]);

@@ -2,24 +2,28 @@
 #include "rkpm/shape.h"
 #include "base/memory.h"
 #include "rkpm/kernel.h"
+#include "rkpm/moments.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Nodes with a smaller kernel have no part; a pivot below this part of the largest diagonal means a condition beyond 1e7. */
-static const double LEAST_KERNEL = 1e-14, LEAST_PIVOT = 1e-7;
-static const double ENLARGEMENT = 1.2;
-enum { ENLARGEMENTS = 3 };
-
-/* The moment matrix as L D L^T: L below the diagonal, D on it. */
-struct moments {
-    int count;
-    double a[BASIS_LARGEST][BASIS_LARGEST];
-};
-
 int rkpm_shape_order(enum basis_form form)
 {
     return form == BASIS_QUADRATIC ? 2 : 1;
+}
+
+/* Room for the row of a point. */
+static void open_row(struct rkpm_shape *shape)
+{
+    const size_t most = shape->most;
+    shape->row = (struct shape_row){.node = memory_array(most, sizeof *shape->row.node, "shape functions"),
+                                    .value = memory_array(most, sizeof(double), "shape functions")};
+    shape->monomials = memory_array(most * BASIS_LARGEST, sizeof(double), "shape functions");
+    shape->kernel = memory_array(most, sizeof(double), "shape functions");
+    for (int a = 0; a < shape->dimension; a++) {
+        shape->row.gradient[a] = memory_array(most, sizeof(double), "shape functions");
+        shape->kernel_slope[a] = memory_array(most, sizeof(double), "shape functions");
+    }
 }
 
 void rkpm_shape_open(struct rkpm_shape *shape, int dimension, enum basis_form form, size_t count, double *const *x, const double radius[3])
@@ -30,28 +34,33 @@ void rkpm_shape_open(struct rkpm_shape *shape, int dimension, enum basis_form fo
     shape->basis[1] = basis_complete(dimension, 1);
     shape->basis[2] = form == BASIS_BILINEAR ? basis_tensor(dimension) : basis_complete(dimension, 2);
     search_open(&shape->search, dimension, count, x, radius);
-    const size_t most = search_most(&shape->search, pow(ENLARGEMENT, ENLARGEMENTS));
-    shape->row.node = memory_array(most, sizeof *shape->row.node, "shape functions");
-    shape->row.value = memory_array(most, sizeof(double), "shape functions");
-    shape->monomials = memory_array(most * BASIS_LARGEST, sizeof(double), "shape functions");
-    shape->kernel = memory_array(most, sizeof(double), "shape functions");
-    for (int a = 0; a < dimension; a++) {
-        shape->row.gradient[a] = memory_array(most, sizeof(double), "shape functions");
-        shape->kernel_slope[a] = memory_array(most, sizeof(double), "shape functions");
+    shape->most = search_most(&shape->search, pow(MOMENTS_ENLARGEMENT, MOMENTS_ENLARGEMENTS));
+    open_row(shape);
+}
+
+void rkpm_shape_open_copy(struct rkpm_shape *copy, const struct rkpm_shape *shape)
+{
+    *copy = *shape;
+    copy->enlarged = copy->lowered = 0;
+    open_row(copy);
+}
+
+void rkpm_shape_close_copy(struct rkpm_shape *copy)
+{
+    memory_free(copy->row.node);
+    memory_free(copy->row.value);
+    memory_free(copy->monomials);
+    memory_free(copy->kernel);
+    for (int a = 0; a < 3; a++) {
+        memory_free(copy->row.gradient[a]);
+        memory_free(copy->kernel_slope[a]);
     }
 }
 
 void rkpm_shape_close(struct rkpm_shape *shape)
 {
     search_close(&shape->search);
-    memory_free(shape->row.node);
-    memory_free(shape->row.value);
-    memory_free(shape->monomials);
-    memory_free(shape->kernel);
-    for (int a = 0; a < 3; a++) {
-        memory_free(shape->row.gradient[a]);
-        memory_free(shape->kernel_slope[a]);
-    }
+    rkpm_shape_close_copy(shape);
 }
 
 /* --- nodes and kernels --- */
@@ -69,7 +78,7 @@ static void take_node(struct rkpm_shape *shape, int32_t node, const double point
         slope[a] = copysign(rkpm_kernel_slope(z) / radius, offset * rkpm_kernel_slope(z));
         product *= phi[a];
     }
-    if (product <= LEAST_KERNEL)
+    if (product <= MOMENTS_LEAST_KERNEL)
         return;
     shape->row.node[n] = node;
     shape->kernel[n] = product;
@@ -115,41 +124,6 @@ static void sum_moments(struct rkpm_shape *shape, const struct basis *basis, con
     }
 }
 
-/* Factors in place; false where a pivot is too small. */
-static bool factor(struct moments *moments)
-{
-    const int n = moments->count;
-    double largest = 0;
-    for (int i = 0; i < n; i++)
-        largest = fmax(largest, moments->a[i][i]);
-    for (int i = 0; i < n; i++) {
-        for (int j = 0; j < i; j++)
-            for (int k = 0; k < j; k++)
-                moments->a[i][j] -= moments->a[i][k] * moments->a[j][k];
-        for (int j = 0; j < i; j++) {
-            const double scaled = moments->a[i][j] / moments->a[j][j];
-            moments->a[i][i] -= scaled * moments->a[i][j];
-            moments->a[i][j] = scaled;
-        }
-        if (!(moments->a[i][i] > LEAST_PIVOT * largest))
-            return false;
-    }
-    return true;
-}
-
-static void solve(const struct moments *moments, double *x)
-{
-    const int n = moments->count;
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < i; j++)
-            x[i] -= moments->a[i][j] * x[j];
-    for (int i = 0; i < n; i++)
-        x[i] /= moments->a[i][i];
-    for (int i = n - 1; i >= 0; i--)
-        for (int j = i + 1; j < n; j++)
-            x[i] -= moments->a[j][i] * x[j];
-}
-
 static double product(int count, const double *a, const double *b)
 {
     double sum = 0;
@@ -165,7 +139,7 @@ static void set_values(struct rkpm_shape *shape, const struct moments *moments, 
 {
     memset(b, 0, BASIS_LARGEST * sizeof *b);
     b[0] = 1;
-    solve(moments, b);
+    moments_solve(moments, b);
     for (int n = 0; n < shape->row.count; n++)
         shape->row.value[n] = product(moments->count, b, shape->monomials + (size_t)n * BASIS_LARGEST) * shape->kernel[n];
 }
@@ -186,7 +160,7 @@ static void direct_gradient(struct rkpm_shape *shape, const struct basis *basis,
             change[m] -= slope[m] * along_slope + h[m] * along_value;
         shape->row.gradient[axis][n] = along_value;
     }
-    solve(moments, change);
+    moments_solve(moments, change);
     for (int n = 0; n < shape->row.count; n++)
         shape->row.gradient[axis][n] += product(moments->count, change, shape->monomials + (size_t)n * BASIS_LARGEST) * shape->kernel[n];
 }
@@ -196,7 +170,7 @@ static void implicit_gradient(struct rkpm_shape *shape, const struct moments *mo
 {
     double b[BASIS_LARGEST] = {0};
     b[1 + axis] = -1 / shape->radius[axis];
-    solve(moments, b);
+    moments_solve(moments, b);
     for (int n = 0; n < shape->row.count; n++)
         shape->row.gradient[axis][n] = product(moments->count, b, shape->monomials + (size_t)n * BASIS_LARGEST) * shape->kernel[n];
 }
@@ -206,10 +180,10 @@ static const struct basis *find_basis(struct rkpm_shape *shape, const double poi
 {
     for (int level = shape->top; level >= 0; level--) {
         shape->row.reach = 1;
-        for (int i = 0; i <= ENLARGEMENTS; i++, shape->row.reach *= ENLARGEMENT) {
+        for (int i = 0; i <= MOMENTS_ENLARGEMENTS; i++, shape->row.reach *= MOMENTS_ENLARGEMENT) {
             find_nodes(shape, point);
             sum_moments(shape, &shape->basis[level], point, moments);
-            if (shape->row.count >= moments->count && factor(moments)) {
+            if (shape->row.count >= moments->count && moments_factor(moments)) {
                 shape->row.order = level == shape->top ? rkpm_shape_order(shape->form) : level;
                 shape->enlarged += i > 0;
                 shape->lowered += level < shape->top;

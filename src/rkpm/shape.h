@@ -32,6 +32,7 @@ struct rkpm_shape {
     double *monomials;     /* of its nodes */
     double *kernel;
     double *kernel_slope[3];
+    size_t most;           /* nodes that it has room for */
     long enlarged, lowered; /* points where the support was enlarged, or the order had to be lowered */
 };
 
@@ -41,6 +42,10 @@ int rkpm_shape_order(enum basis_form form);
 /* Shape functions of nodes x[axis][node], which stay where they are. */
 void rkpm_shape_open(struct rkpm_shape *shape, int dimension, enum basis_form form, size_t count, double *const *x, const double radius[3]);
 void rkpm_shape_close(struct rkpm_shape *shape);
+
+/* The same shape functions with a row of their own, for another thread: `shape` has to stay open. */
+void rkpm_shape_open_copy(struct rkpm_shape *copy, const struct rkpm_shape *shape);
+void rkpm_shape_close_copy(struct rkpm_shape *copy);
 
 /* Values at a point, with gradients (2.3). The row holds until the next call.
  * Where nodes are too few for the basis the supports are enlarged by 1.2 up to three times, then the order is lowered, down

@@ -46,12 +46,14 @@ struct instability rkpm_advance(struct rkpm *rkpm)
     timers_enter(rkpm->timers, PHASE_SYSTEM);
     if (rkpm->words->problem == PROBLEM_APPROXIMATION)
         approximate(rkpm, level);
+    else if (rkpm->words->problem == PROBLEM_ELASTIC)
+        rkpm_elastic_solve(rkpm, level);
     else
         rkpm_system_solve(rkpm, level);
     timers_enter(rkpm->timers, PHASE_SUMS);
     rkpm_measure(rkpm, level);
     if ((size_t)rkpm->step == rkpm->n_levels)
-        show(rkpm, level);
+        rkpm->words->problem == PROBLEM_ELASTIC ? rkpm_elastic_show(rkpm, level) : show(rkpm, level);
     rkpm->updates += (double)level->count;
     if (!rkpm->instability.is_stopped && !isfinite(level->result.h1)) {
         rkpm->instability = (struct instability){.is_stopped = true, .particle = -1, .cause = "the solution is not finite",

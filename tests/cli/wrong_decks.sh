@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Wrong decks, and right ones that look unusual: sh tests/cli/wrong_decks.sh PROGRAM
 # PROGRAM is mpm3d or a folder that holds it. Every deck is read with --check and has to end within
-# thirty seconds with the messages that wrong_decks.table, wrong_decks_sph.table, wrong_decks_rkpm.table or the cases made below ask
+# thirty seconds with the messages that wrong_decks.table, wrong_decks_sph.table, wrong_decks_rkpm.table, wrong_decks_dynamic.table or the cases made below ask
 # for, and no others.
 here=$(cd "$(dirname "$0")" && pwd) || exit 2
 program=$1
@@ -85,6 +85,7 @@ make_decks() {
 make_decks wrong_decks
 make_decks wrong_decks_sph
 make_decks wrong_decks_rkpm
+make_decks wrong_decks_dynamic
 cat complaints
 
 # --- decks that a line of the table can't say ---

@@ -27,7 +27,7 @@ static void start_point(struct point *point, unsigned words, double long_time, i
     point->material = (struct material){.law = &law_maxw, .parameter = {1, long_time, NU}, .elements = point->elements,
                                         .n_elements = n, .words = words};
     for (int i = 0; i < n; i++)
-        point->elements[i] = (struct law_element){.young = elements[i][0], .time = elements[i][1]};
+        point->elements[i] = (struct law_element){.strength = elements[i][0], .time = elements[i][1]};
     for (int k = 0; k < 6 * MOST; k++)
         point->columns[k] = &point->history[k];
     check_true("maxw: a material is accepted", !law_maxw.prepare(&point->material));
@@ -321,7 +321,7 @@ static void test_factors(void)
 /* Both rules at once are refused. */
 static void test_words(void)
 {
-    struct law_element element = {.young = 1, .time = 1};
+    struct law_element element = {.strength = 1, .time = 1};
     struct material material = {.law = &law_maxw, .parameter = {1, 1, NU}, .elements = &element, .n_elements = 1,
                                 .words = EXPONENTIAL | MIDPOINT};
     check_true("maxw: one rule", law_maxw.prepare(&material) != NULL);

@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* fmax: generalised Maxwell viscoelasticity of finite strains (spec rkpm 6.1): neo-Hookean at once, and a convolution
+ * over the strain's history. With J = det F, b = J^(-2/3) F F^T and the shear moduli mu_i of elements, mu at long times,
+ *     q_i := f' (A_i q_i - B_i mu_i dev b) f'^T + B_i mu_i dev b,  f' = det(f)^(-1/3) f
+ *     J sigma = K/2 (J^2 - 1) + mu dev b + sum dev q_i
+ * where the first b is that of before the step. Not a fluid where mu is 0: in steady shear the stress grows with the strain. */
+#include "material/finite.h"
+#include "material/maxwell.h"
+
+#include <math.h>
+#include <string.h>
+
+/* As in the list of words of the row; columns of history: J less 1, b less 1. */
+enum { WORD_EXPONENTIAL = 1, WORD_MIDPOINT = 2 };
+enum { HISTORY_SHAPE = 1, HISTORY_ELEMENTS = 7 };
+
+static const char *prepare(struct material *material)
+{
+    const double poisson = material->parameter[LAW_POISSON];
+    double young = material->parameter[LAW_YOUNG];
+    if ((material->words & WORD_EXPONENTIAL) && (material->words & WORD_MIDPOINT))
+        return "there is one rule for the step; expected exponential or midpoint";
+    for (int i = 0; i < material->n_elements; i++) {
+        material->elements[i].shear = material->elements[i].strength / (2 * (1 + poisson));
+        young += material->elements[i].strength;
+    }
+    law_set_elastic(material, young, poisson, true);
+    return NULL;
+}
+
+THREADS_INLINE void deviate(double s[6])
+{
+    const double mean = tensor_mean(s);
+    for (int a = 0; a < 3; a++)
+        s[a] -= mean;
+}
+
+/* det(f)^(-2/3) less 1 of each point goes to terms[0]: its logarithm would keep the loop over points from being worked on
+ * several at a time. */
+static void find_scales(const struct law_batch *batch)
+{
+    for (int j = 0; j < batch->count; j++) {
+        double g[3][3];
+        finite_gradient(batch, j, g);
+        batch->terms[0][j] = expm1(-2.0 / 3 * log1p(finite_swelling(g)));
+    }
+}
+
+/* dev b of before and after the step; b itself, less 1, of after it. */
+struct shape {
+    double before[6], after[6], whole[6];
+};
+
+THREADS_INLINE struct shape shape_of(const struct law_batch *batch, int j, double g[3][3])
+{
+    const double less = batch->terms[0][j];
+    struct shape shape;
+    double unit[6];
+    finite_carry_unit(g, unit);
+    for (int a = 0; a < 6; a++)
+        shape.before[a] = shape.whole[a] = batch->history[HISTORY_SHAPE + a][batch->history_from + j];
+    finite_carry(g, shape.whole);
+    for (int a = 0; a < 6; a++)
+        shape.after[a] = shape.whole[a] = (1 + less) * (shape.whole[a] + unit[a]) + (a < 3 ? less : 0);
+    deviate(shape.before);
+    deviate(shape.after);
+    return shape;
+}
+
+/* q of an element, and its part of J sigma. */
+THREADS_INLINE void element_point(const struct law_batch *batch, int j, double *const *history, double shear, struct maxwell_factors factors)
+{
+    double g[3][3], q[6];
+    finite_gradient(batch, j, g);
+    const struct shape shape = shape_of(batch, j, g);
+    for (int a = 0; a < 6; a++)
+        q[a] = factors.decay * history[a][batch->history_from + j] - factors.share * shear * shape.before[a];
+    finite_carry(g, q);
+    for (int a = 0; a < 6; a++) {
+        q[a] = (1 + batch->terms[0][j]) * q[a] + factors.share * shear * shape.after[a];
+        history[a][batch->history_from + j] = q[a];
+    }
+    deviate(q);
+    for (int a = 0; a < 6; a++)
+        batch->stress[a][j] += q[a];
+}
+
+THREADS_VECTORISED
+static void update_element(const struct law_batch *batch, int i, struct maxwell_factors factors)
+{
+    const double shear = batch->material->elements[i].shear;
+    double *const *history = batch->history + HISTORY_ELEMENTS + 6 * i;
+    for (int j = 0; j < batch->count; j++)
+        element_point(batch, j, history, shear, factors);
+}
+
+/* J, b, what the spring and the volume have of J sigma, and sigma. */
+THREADS_INLINE void finish_point(const struct law_batch *batch, int j, double spring)
+{
+    double g[3][3];
+    finite_gradient(batch, j, g);
+    const struct shape shape = shape_of(batch, j, g);
+    const double ratio = finite_volume(batch, j, finite_swelling(g));
+    const double swelling = 0.5 * batch->material->bulk_modulus * ratio * (2 + ratio);
+    for (int a = 0; a < 6; a++) {
+        batch->history[HISTORY_SHAPE + a][batch->history_from + j] = shape.whole[a];
+        batch->stress[a][j] = (batch->stress[a][j] + spring * shape.after[a] + (a < 3 ? swelling : 0)) / (1 + ratio);
+    }
+}
+
+THREADS_VECTORISED
+static void finish(const struct law_batch *batch, double spring)
+{
+    for (int j = 0; j < batch->count; j++)
+        finish_point(batch, j, spring);
+}
+
+static void update(const struct law_batch *batch)
+{
+    const struct material *material = batch->material;
+    const enum maxwell_rule rule = material->words & WORD_MIDPOINT ? MAXWELL_MIDPOINT : MAXWELL_EXPONENTIAL;
+    double spring = material->shear_modulus;
+    find_scales(batch);
+    for (int a = 0; a < 6; a++)
+        memset(batch->stress[a], 0, (size_t)batch->count * sizeof *batch->stress[a]);
+    for (int i = 0; i < material->n_elements; i++) {
+        update_element(batch, i, maxwell_factors(rule, batch->time_step, material->elements[i].time));
+        spring -= material->elements[i].shear;
+    }
+    finish(batch, spring);
+}
+
+const struct law law_fmax = {
+    .name = "fmax",
+    .methods = METHODS_MPM | METHODS_DYNAMIC,
+    .doc = "generalised Maxwell viscoelasticity of finite strains, neo-Hookean at once: a spring, young at long times, and n elements of a "
+           "modulus and a relaxation time, all with one Poisson's ratio. Without a spring it is good for moderate strains, and no fluid: "
+           "in steady shear its stress grows with the strain. Behind them: midpoint, a rule of the step in place of the exponential one",
+    .parameters = (const struct argument[]){{"density", "mass/length^3", ARGUMENT_REAL, LIMIT_POSITIVE},
+                                            {"young", "stress", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE},
+                                            {"poisson", NULL, ARGUMENT_REAL, LIMIT_POISSON},
+                                            {0}},
+    .element = (const struct argument[]){{"modulus", "stress", ARGUMENT_REAL, LIMIT_POSITIVE},
+                                         {"time", "time", ARGUMENT_REAL, LIMIT_POSITIVE},
+                                         {0}},
+    .words = (const char *const[]){"exponential", "midpoint", NULL},
+    .history = HISTORY_ELEMENTS,
+    .columns = {COLUMN_NONE},
+    .follows_time = true,
+    .stabilisation = 1,
+    .viscous_work = 1,
+    .prepare = prepare,
+    .update = update,
+};

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One step of a moving body, as the list of dynamic.h, whether it can be trusted, and its state between steps. */
+#include "rkpm/dynamic.h"
+#include "base/checkpoint.h"
+
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+
+/* A body squeezed to less than this part of its volume is no body any more (spec 7). */
+static const double LEAST_RATIO = 0.05;
+/* A step below this fraction of the first one is a slow blow-up. */
+static const double LEAST_STEP_FRACTION = 1e-6;
+
+/* --- whether it can be trusted --- */
+
+static void stop(struct dynamic *dynamic, const char *advice)
+{
+    dynamic->instability.is_stopped = true;
+    dynamic->instability.particle = dynamic->sums.bad_node;
+    snprintf(dynamic->instability.advice, sizeof dynamic->instability.advice, "%s", advice);
+}
+
+static void check(struct dynamic *dynamic)
+{
+    const struct scene *scene = dynamic->scene;
+    const double least = scene->least_step > 0 ? scene->least_step : LEAST_STEP_FRACTION * dynamic->first_time_step;
+    char *cause = dynamic->instability.cause;
+    const size_t size = sizeof dynamic->instability.cause;
+    dynamic->instability = (struct instability){.particle = -1};
+    if (!dynamic->sums.is_finite) {
+        snprintf(cause, size, "a value is not finite");
+        stop(dynamic, "try a smaller dtfx, or leave it out");
+    } else if (dynamic->sums.least_ratio < LEAST_RATIO) {
+        snprintf(cause, size, "the volume of a node is %.3g of that at the start", dynamic->sums.least_ratio);
+        stop(dynamic, scene->fixed_step > 0 ? "try a smaller dtfx, a softer wall, or inte nsni" : "try a softer wall, or inte nsni");
+    } else if (dynamic->time_step < least && dynamic->time + dynamic->time_step <= scene->end_time) {
+        snprintf(cause, size, "the time step fell to %.3g, %.3g of the first one", dynamic->time_step, dynamic->time_step / dynamic->first_time_step);
+        stop(dynamic, "look at jmin, and at the numbers of the material");
+    } else if (dynamic->time_step <= 0.5 * DBL_EPSILON * scene->end_time) {
+        snprintf(cause, size, "the time step %.3g is too small to come to the end, %.3g", dynamic->time_step, scene->end_time);
+        stop(dynamic, "look at the numbers of the material, in the units of the deck");
+    }
+}
+
+/* --- the step --- */
+
+void rkpm_dynamic_move(struct dynamic *dynamic)
+{
+    const double dt = dynamic->time_step;
+    const int d = dynamic->dimension;
+    for (int a = 0; a < d; a++) {
+        double *restrict v = dynamic->velocity[a];
+        const double *restrict acceleration = dynamic->acceleration[a];
+        for (size_t n = 0; n < dynamic->count; n++)
+            v[n] += 0.5 * dt * acceleration[n];
+    }
+    rkpm_dynamic_hold(dynamic);
+    for (int a = 0; a < d; a++) {
+        double *restrict x = dynamic->coefficient[a];
+        const double *restrict v = dynamic->velocity[a];
+        for (size_t n = 0; n < dynamic->count; n++) {
+            dynamic->increment[n * (size_t)d + (size_t)a] = dt * v[n];
+            x[n] += dynamic->is_semi ? 0 : dt * v[n];
+        }
+    }
+}
+
+static void finish_velocities(struct dynamic *dynamic)
+{
+    for (int a = 0; a < dynamic->dimension; a++) {
+        double *restrict v = dynamic->velocity[a];
+        const double *restrict acceleration = dynamic->acceleration[a];
+        for (size_t n = 0; n < dynamic->count; n++)
+            v[n] += 0.5 * dynamic->time_step * acceleration[n];
+    }
+}
+
+struct instability rkpm_dynamic_advance(struct dynamic *dynamic)
+{
+    timers_enter(dynamic->timers, PHASE_MOVE);
+    rkpm_dynamic_move(dynamic);
+    if (dynamic->is_semi)
+        rkpm_dynamic_follow(dynamic);
+    timers_enter(dynamic->timers, PHASE_STRESS);
+    rkpm_dynamic_strain(dynamic);
+    timers_enter(dynamic->timers, PHASE_FORCES);
+    rkpm_dynamic_forces(dynamic);
+    timers_enter(dynamic->timers, PHASE_MOVE);
+    finish_velocities(dynamic);
+    rkpm_dynamic_places(dynamic);
+    dynamic->step++;
+    dynamic->time += dynamic->time_step;
+    dynamic->updates += (double)dynamic->count;
+    timers_enter(dynamic->timers, PHASE_SUMS);
+    rkpm_dynamic_sum(dynamic);
+    rkpm_dynamic_release(dynamic);
+    dynamic->time_step = rkpm_dynamic_limit(dynamic);
+    if (!dynamic->instability.is_stopped)
+        check(dynamic);
+    timers_enter(dynamic->timers, PHASE_OTHER);
+    return dynamic->instability;
+}
+
+/* --- the state --- */
+
+#define FIELD(name) {#name, offsetof(struct dynamic, name), sizeof(((struct dynamic *)NULL)->name)}
+
+static const struct {
+    const char *name;
+    size_t offset, size;
+} fields[] = {
+    FIELD(step), FIELD(time), FIELD(time_step), FIELD(first_time_step), FIELD(updates), FIELD(sums), FIELD(fixed.is_released), FIELD(fixed.is_left_out),
+};
+
+void rkpm_dynamic_exchange(struct dynamic *dynamic, struct checkpoint *checkpoint)
+{
+    const size_t all = dynamic->store->count, terms = all * (size_t)(dynamic->dimension * dynamic->gradient_terms);
+    for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
+        checkpoint_item(checkpoint, fields[i].name, (char *)dynamic + fields[i].offset, fields[i].size, 1);
+    store_exchange(dynamic->store, checkpoint, 1);
+    for (int a = 0; a < dynamic->dimension; a++) {
+        checkpoint_item(checkpoint, "coefficient", dynamic->coefficient[a], sizeof(double), dynamic->count);
+        checkpoint_item(checkpoint, "rate", dynamic->velocity[a], sizeof(double), dynamic->count);
+        checkpoint_item(checkpoint, "acceleration", dynamic->acceleration[a], sizeof(double), dynamic->count);
+    }
+    checkpoint_item(checkpoint, "wall_force", dynamic->wall_force, sizeof(double), dynamic->count);
+    checkpoint_item(checkpoint, "load", dynamic->load, sizeof(double),
+                    dynamic->count * (size_t)(dynamic->nodal.rows * dynamic->dimension * dynamic->dimension));
+    if (terms > 0)
+        checkpoint_item(checkpoint, "gradient_stress", dynamic->gradient_stress, sizeof(double), terms);
+    if (!dynamic->is_semi)
+        return;
+    checkpoint_item(checkpoint, "volumes", dynamic->volumes, sizeof(double), all);
+    checkpoint_item(checkpoint, "is_active", dynamic->fixed.is_active, sizeof(bool), all);
+    if (checkpoint_is_reading(checkpoint) && checkpoint_is_good(checkpoint))
+        rkpm_dynamic_renew(dynamic);
+}

@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A body of reproducing kernel particles that moves in time (spec rkpm 7): finite strain, integration at the nodes, lumped
+ * mass, central differences. What moves freely are the coefficients of the shape functions; the places of nodes follow
+ * from them, x = sum Psi_J x_J. With the semi-Lagrangian kernel shape functions are those of the nodes' places of now, and
+ * nodes themselves move by sum Psi_J dx_J. A step:
+ *     1. velocities of coefficients to the middle of the step, and places by them; shape functions there, where they
+ *        follow the nodes                                                     (rkpm_dynamic_move, rkpm_dynamic_follow)
+ *     2. strain, volume and stress of nodes, and what of them goes into forces           (rkpm_dynamic_strain)
+ *     3. forces on coefficients, of the inside and of the wall; accelerations            (rkpm_dynamic_forces)
+ *     4. velocities to the end of the step; sums
+ * Vectors of nodes are stored node by node where many nodes read them. Sums over neighbours go in the order of nodes, so
+ * that they don't depend on the number of threads. */
+#ifndef RKPM_DYNAMIC_H
+#define RKPM_DYNAMIC_H
+
+#include "base/instability.h"
+#include "base/timers.h"
+#include "deck/scene.h"
+#include "rkpm/nodal.h"
+
+struct checkpoint;
+
+enum { DYNAMIC_FEW_NODES = 1000 }; /* below these one thread is faster */
+
+/* Sums and extremes after a step. */
+struct dynamic_sums {
+    double kinetic, internal, wall_energy;
+    double momentum[3], centre[3];
+    double low[3], high[3];      /* of nodes' places */
+    double angular, turn;
+    double least_ratio, most_ratio; /* J */
+    double wall_force;
+    long few_neighbours;         /* points with too few neighbours, those of a wall that carries nothing left out */
+    long bad_node;               /* the first one with J too small or a value that is not finite; -1: none */
+    bool is_finite;
+};
+
+/* Nodes of a wall that take part in the approximation (spec 8). They stand behind those of the body: in the store all of
+ * them, in the rows those near the body, whose places in the store `slot` has. */
+struct dynamic_fixed {
+    size_t count;
+    double low[3], high[3]; /* of their places */
+    bool *is_active;        /* per place in the store: a node that carries stress */
+    bool is_released;       /* the body has been let go */
+    bool is_left_out;       /* the same when the rows were made */
+    int32_t shown;          /* nodes that output shows: those of the body */
+};
+
+/* Where each pair of a node's rows stands: those that belong to a coefficient, by nodes. */
+struct dynamic_pairs {
+    int32_t *first; /* per coefficient, one more at the end */
+    int32_t *node;  /* whose row it is */
+    int32_t *place; /* its place in the row */
+    size_t capacity[2];
+};
+
+struct dynamic {
+    const struct scene *scene;
+    const struct scene_rkpm *words;
+    const struct material *material;
+    struct timers *timers;
+    struct store *store;       /* places, velocities, stresses of nodes as output sees them */
+    int dimension;
+    bool is_semi;
+    size_t count;              /* of the body */
+    size_t nodes;              /* that have rows: those of the body, and of a wall near it */
+    int32_t *slot;             /* per node with rows: its place in the store */
+    struct dynamic_fixed fixed;
+    double spacing, volume, mass; /* of a node, at the start */
+    double *rest[3];           /* places at the start, in the order of the store */
+    double *volumes;           /* of the rows */
+    struct nodal nodal;
+    struct dynamic_pairs pairs;
+
+    double *coefficient[3];    /* places of coefficients; with the semi-Lagrangian kernel of nodes */
+    double *velocity[3], *acceleration[3]; /* of them */
+    double *increment;         /* of their places in the step, node by node, `dimension` each */
+    double *place;             /* of coefficients, in the same way */
+    double *load;              /* by nodes, rows: weight times stress, dimension^2 each; its work is the internal energy */
+    double *gradient_stress;   /* nsni, in the order of the store, by axes: `gradient_terms` each */
+    int gradient_terms;
+    double stabilisation;
+    double *strain[6], *spin[3], *trace, *volume_before, *terms[2]; /* of the law's batch, in the order of the store */
+    double *wall_force;        /* per node, along the wall's axis */
+
+    long step;
+    double time, time_step, first_time_step;
+    double updates;
+    struct dynamic_sums sums;
+    struct instability instability;
+};
+
+struct dynamic *rkpm_dynamic_open(const struct scene *scene, struct timers *timers);
+void rkpm_dynamic_close(struct dynamic *dynamic);
+struct instability rkpm_dynamic_advance(struct dynamic *dynamic);
+
+/* The state between two steps, to or from a checkpoint. */
+void rkpm_dynamic_exchange(struct dynamic *dynamic, struct checkpoint *checkpoint);
+
+/* --- parts --- */
+
+/* Lists of pairs by coefficient, from the rows as they are. */
+void rkpm_dynamic_pairs(struct dynamic *dynamic);
+
+void rkpm_dynamic_move(struct dynamic *dynamic);
+
+/* Semi-Lagrangian kernel: moves nodes, and makes the rows anew. What is between two steps does so after a restart, but for
+ * the motion. */
+void rkpm_dynamic_follow(struct dynamic *dynamic);
+void rkpm_dynamic_renew(struct dynamic *dynamic);
+
+/* Whether the body is let go by a wall that pulls at it, or met again. */
+void rkpm_dynamic_release(struct dynamic *dynamic);
+void rkpm_dynamic_strain(struct dynamic *dynamic);
+void rkpm_dynamic_forces(struct dynamic *dynamic);
+
+/* Places and velocities of nodes, from those of coefficients. */
+void rkpm_dynamic_places(struct dynamic *dynamic);
+
+/* Force of the wall's springs per node, from places; velocities along the wall of nodes that stick to it are taken out. */
+void rkpm_dynamic_wall(struct dynamic *dynamic);
+void rkpm_dynamic_hold(struct dynamic *dynamic);
+
+void rkpm_dynamic_sum(struct dynamic *dynamic);
+
+/* What the next step is, by dtfx or by the wave that crosses the spacing of the most compressed node (spec 7). */
+double rkpm_dynamic_limit(const struct dynamic *dynamic);
+
+#endif

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Forces on coefficients, collected by each from the nodes whose rows it stands in, and what nodes get from coefficients. */
+#include "base/memory.h"
+#include "rkpm/dynamic.h"
+
+#include <string.h>
+
+/* --- pairs --- */
+
+void rkpm_dynamic_pairs(struct dynamic *dynamic)
+{
+    const struct nodal *nodal = &dynamic->nodal;
+    struct dynamic_pairs *pairs = &dynamic->pairs;
+    const size_t count = nodal->count;
+    size_t total = 0;
+    if (!pairs->first)
+        pairs->first = memory_array(dynamic->store->count + 2, sizeof *pairs->first, "pairs of nodes");
+    int32_t *first = pairs->first;
+    memset(first, 0, (count + 2) * sizeof *first);
+    for (size_t n = 0; n < count; n++)
+        for (int k = 0; k < nodal->neighbours[n]; k++, total++)
+            first[rkpm_nodal_neighbour(nodal, n)[k] + 2]++;
+    for (size_t i = 0; i < count; i++)
+        first[i + 2] += first[i + 1];
+    pairs->node = memory_grow(pairs->node, &pairs->capacity[0], total, sizeof *pairs->node, "pairs of nodes");
+    pairs->place = memory_grow(pairs->place, &pairs->capacity[1], total, sizeof *pairs->place, "pairs of nodes");
+    /* first[i + 1] goes from the start of i up to its end, which is the start of the next one */
+    for (size_t n = 0; n < count; n++)
+        for (int k = 0; k < nodal->neighbours[n]; k++) {
+            const int32_t to = first[rkpm_nodal_neighbour(nodal, n)[k] + 1]++;
+            pairs->node[to] = (int32_t)n;
+            pairs->place[to] = k;
+        }
+}
+
+/* --- forces --- */
+
+/* -sum over rows of load times row. */
+THREADS_INLINE void collect(const struct dynamic *dynamic, size_t coefficient, double force[3], const int d)
+{
+    const struct nodal *nodal = &dynamic->nodal;
+    const struct dynamic_pairs *pairs = &dynamic->pairs;
+    const size_t stride = (size_t)nodal->stride, rows = (size_t)nodal->rows, axes = (size_t)d;
+    double sum[3] = {0};
+    for (int32_t p = pairs->first[coefficient]; p < pairs->first[coefficient + 1]; p++) {
+        const size_t node = (size_t)pairs->node[p];
+        const double *restrict load = dynamic->load + node * rows * axes * axes;
+        const double *restrict row = nodal->gradients + node * rows * axes * stride + (size_t)pairs->place[p];
+        for (size_t r = 0; r < rows; r++, load += axes * axes, row += axes * stride)
+            for (int i = 0; i < d; i++)
+                for (int j = 0; j < d; j++)
+                    sum[i] -= load[i * d + j] * row[(size_t)j * stride];
+    }
+    memcpy(force, sum, sizeof sum);
+}
+
+THREADS_VECTORISED
+static void collect_2(const struct dynamic *dynamic, size_t coefficient, double force[3])
+{
+    collect(dynamic, coefficient, force, 2);
+}
+
+THREADS_VECTORISED
+static void collect_3(const struct dynamic *dynamic, size_t coefficient, double force[3])
+{
+    collect(dynamic, coefficient, force, 3);
+}
+
+void rkpm_dynamic_forces(struct dynamic *dynamic)
+{
+    const double *gravity = dynamic->words->dynamic.gravity;
+    const int axis = dynamic->words->dynamic.wall_axis;
+    rkpm_dynamic_wall(dynamic);
+#pragma omp parallel for schedule(static) if (dynamic->nodes >= DYNAMIC_FEW_NODES)
+    for (size_t n = 0; n < dynamic->nodes; n++) {
+        double force[3];
+        (dynamic->dimension == 2 ? collect_2 : collect_3)(dynamic, n, force);
+        if (n >= dynamic->count) { /* what the body does to a fixed node */
+            dynamic->wall_force[n] = -force[axis];
+            continue;
+        }
+        force[axis] += dynamic->wall_force[n];
+        for (int a = 0; a < dynamic->dimension; a++)
+            dynamic->acceleration[a][n] = force[a] / dynamic->mass + gravity[a];
+    }
+}
+
+/* --- places --- */
+
+THREADS_INLINE void place_node(struct dynamic *dynamic, size_t node, const int d)
+{
+    const struct nodal *nodal = &dynamic->nodal;
+    const int32_t *neighbour = rkpm_nodal_neighbour(nodal, node);
+    const double *restrict value = rkpm_nodal_value(nodal, node);
+    double x[3] = {0}, v[3] = {0};
+    for (int k = 0; k < nodal->neighbours[node]; k++)
+        for (int a = 0; a < d; a++) {
+            x[a] += value[k] * dynamic->place[(size_t)neighbour[k] * (size_t)d + (size_t)a];
+            v[a] += value[k] * dynamic->velocity[a][neighbour[k]];
+        }
+    for (int a = 0; a < d; a++) {
+        dynamic->store->real[COLUMN_POSITION][a][node] = dynamic->is_semi ? dynamic->coefficient[a][node] : x[a];
+        dynamic->store->real[COLUMN_VELOCITY][a][node] = v[a];
+    }
+}
+
+THREADS_VECTORISED
+static void place_node_2(struct dynamic *dynamic, size_t node)
+{
+    place_node(dynamic, node, 2);
+}
+
+THREADS_VECTORISED
+static void place_node_3(struct dynamic *dynamic, size_t node)
+{
+    place_node(dynamic, node, 3);
+}
+
+void rkpm_dynamic_places(struct dynamic *dynamic)
+{
+    const size_t d = (size_t)dynamic->dimension;
+    for (size_t a = 0; a < d; a++)
+        for (size_t n = 0; n < dynamic->nodes; n++)
+            dynamic->place[n * d + a] = dynamic->coefficient[a][n];
+#pragma omp parallel for schedule(static) if (dynamic->count >= DYNAMIC_FEW_NODES)
+    for (size_t n = 0; n < dynamic->count; n++)
+        (dynamic->dimension == 2 ? place_node_2 : place_node_3)(dynamic, n);
+}

@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Elastic problems: the displacements that a level finds, and their error against exact ones. */
+#include "base/memory.h"
+#include "rkpm/rkpm.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* --- opening --- */
+
+static void displacement(void *context, const double x[3], double u[3])
+{
+    deformation_value(context, x, u);
+}
+
+/* Displacements at held points of faces, exact tractions at the others. */
+static void give_faces(struct rkpm *rkpm, struct body *body)
+{
+    const struct points *faces = &body->faces;
+    const int d = body->dimension;
+    for (size_t i = 0; i < faces->count; i++) {
+        const double x[3] = {faces->x[0][i], faces->x[1][i], faces->x[2][i]};
+        double u[3], gradient[3][3], stress[3][3];
+        deformation_value(&rkpm->deformation, x, u);
+        deformation_gradient(&rkpm->deformation, x, gradient);
+        deformation_stress(d, rkpm->deformation.moduli, gradient, stress);
+        for (int a = 0; a < d; a++)
+            body->given[i * (size_t)d + (size_t)a] = body->is_held[i] ? u[a] : faces->side[i] * stress[a][faces->axis[i]];
+    }
+}
+
+static void stop_at(struct rkpm *rkpm, const double x[3])
+{
+    struct instability *instability = &rkpm->instability;
+    *instability = (struct instability){.is_stopped = true, .particle = -1};
+    snprintf(instability->cause, sizeof instability->cause, "too few nodes are near the point (%.6g, %.6g, %.6g) for linear functions", x[0], x[1], x[2]);
+    snprintf(instability->advice, sizeof instability->advice, "take a larger supp");
+}
+
+void rkpm_elastic_open(struct rkpm *rkpm, struct rkpm_level *level)
+{
+    const struct scene_rkpm *words = rkpm->words;
+    struct body *body = &level->body;
+    body_open(body, words, &level->box, level->count, level->x, &level->shape, rkpm->gauss, rkpm->boundary_gauss, level->beta * words->young);
+    solver_open(&level->solver, body);
+    level->shape.enlarged += body->inside.enlarged + body->faces.enlarged;
+    level->shape.lowered += body->inside.lowered + body->faces.lowered;
+    give_faces(rkpm, body);
+}
+
+void rkpm_elastic_close(struct rkpm_level *level)
+{
+    solver_close(&level->solver);
+    body_close(&level->body);
+}
+
+/* --- the solution --- */
+
+void rkpm_elastic_solve(struct rkpm *rkpm, struct rkpm_level *level)
+{
+    struct body *body = &level->body;
+    const size_t d = (size_t)body->dimension;
+    if (body->inside.lowered > 0 || body->faces.lowered > 0) {
+        stop_at(rkpm, body->inside.lowered > 0 ? body->inside.bad : body->faces.bad);
+        return;
+    }
+    double *right = memory_array(body->nodes * d, sizeof(double), "the linear system");
+    double *given = memory_array((size_t)body->held.rows * d, sizeof(double), "the linear system");
+    body_assemble(body, rkpm->deformation.moduli);
+    body_load(body, rkpm->deformation.moduli, right);
+    if (body->constraint == CONSTRAINT_TRANSFORMATION)
+        held_give_nodes(&body->held, body->x, body->dimension, displacement, &rkpm->deformation, given);
+    else if (body->constraint == CONSTRAINT_LAGRANGE)
+        held_give_hats(&body->held, body->box, &body->faces, body->is_held, displacement, &rkpm->deformation, given);
+    if (solver_factor(&level->solver)) {
+        solver_solve(&level->solver, right, given, right);
+        body_by_nodes(body, right, level->coefficient);
+    } else {
+        struct instability *instability = &rkpm->instability;
+        *instability = (struct instability){.is_stopped = true, .particle = -1};
+        snprintf(instability->cause, sizeof instability->cause, "the linear system is %s",
+                 level->solver.kind == SOLVER_BANDED ? "singular" : "not positive: the boundary is held too weakly, or to rounding error");
+        snprintf(instability->advice, sizeof instability->advice, "%s", level->solver.kind == SOLVER_BANDED ? "take cons nits, or a larger supp" : "take another beta, as 100 /h");
+    }
+    memory_free(right);
+    memory_free(given);
+}
+
+/* --- its error --- */
+
+/* Sums of squares. */
+struct errors {
+    struct rkpm *rkpm;
+    struct rkpm_level *level;
+    double value[3], gradient, energy, whole;
+};
+
+/* u^h, and where `gradient` is not NULL its gradient, at a point. */
+static void find_displacement(struct rkpm *rkpm, struct rkpm_level *level, const double x[3], double u[3], double gradient[3][3])
+{
+    const struct shape_row *row = rkpm_row(rkpm, level, x, gradient ? rkpm->words->gradient : GRADIENT_NONE);
+    const size_t d = (size_t)level->box.dimension;
+    memset(u, 0, 3 * sizeof *u);
+    if (gradient)
+        memset(gradient, 0, 9 * sizeof **gradient);
+    for (int k = 0; k < row->count; k++)
+        for (size_t a = 0; a < d; a++) {
+            const double coefficient = level->coefficient[(size_t)row->node[k] * d + a];
+            u[a] += row->value[k] * coefficient;
+            for (size_t b = 0; b < d && gradient; b++)
+                gradient[a][b] += row->gradient[b][k] * coefficient;
+        }
+}
+
+static double work(int dimension, double stress[3][3], double gradient[3][3])
+{
+    double sum = 0;
+    for (int a = 0; a < dimension; a++)
+        for (int b = 0; b < dimension; b++)
+            sum += stress[a][b] * gradient[a][b];
+    return sum;
+}
+
+static void add_errors(void *context, const struct quadrature_point *point)
+{
+    struct errors *errors = context;
+    const struct deformation *deformation = &errors->rkpm->deformation;
+    const int d = deformation->dimension;
+    double u[3], exact[3], gradient[3][3], slope[3][3], stress[3][3];
+    find_displacement(errors->rkpm, errors->level, point->x, u, gradient);
+    deformation_value(deformation, point->x, exact);
+    deformation_gradient(deformation, point->x, slope);
+    deformation_stress(d, deformation->moduli, slope, stress);
+    errors->whole += point->weight * work(d, stress, slope);
+    for (int a = 0; a < d; a++) {
+        errors->value[a] += point->weight * (u[a] - exact[a]) * (u[a] - exact[a]);
+        for (int b = 0; b < d; b++) {
+            gradient[a][b] -= slope[a][b];
+            errors->gradient += point->weight * gradient[a][b] * gradient[a][b];
+        }
+    }
+    deformation_stress(d, deformation->moduli, gradient, stress);
+    errors->energy += point->weight * work(d, stress, gradient);
+}
+
+/* The last component of the displacement in the middle of the high face along x, over the exact one. */
+static double tip_of(struct rkpm *rkpm, struct rkpm_level *level)
+{
+    const struct deformation *deformation = &rkpm->deformation;
+    const int last = deformation->dimension - 1;
+    double x[3] = {deformation->high[0]}, u[3], exact[3];
+    for (int a = 1; a < deformation->dimension; a++)
+        x[a] = 0.5 * (deformation->low[a] + deformation->high[a]);
+    find_displacement(rkpm, level, x, u, NULL);
+    deformation_value(deformation, x, exact);
+    return exact[last] != 0 ? u[last] / exact[last] : 0;
+}
+
+void rkpm_elastic_measure(struct rkpm *rkpm, struct rkpm_level *level)
+{
+    struct errors errors = {.rkpm = rkpm, .level = level};
+    struct rkpm_result *result = &level->result;
+    double value = 0;
+    quadrature_inside(&level->box, rkpm->norm_gauss, add_errors, &errors);
+    for (int a = 0; a < 3; a++) {
+        result->l2_along[a] = sqrt(errors.value[a]);
+        value += errors.value[a];
+    }
+    result->l2 = sqrt(value);
+    result->h1 = sqrt(value + errors.gradient);
+    result->energy = errors.whole > 0 ? sqrt(errors.energy / errors.whole) : 0;
+    result->tip = tip_of(rkpm, level);
+}
+
+void rkpm_elastic_show(struct rkpm *rkpm, struct rkpm_level *level)
+{
+    struct store *store = rkpm->store;
+    const size_t d = (size_t)level->box.dimension;
+    for (size_t n = 0; n < level->count; n++) {
+        double u[3], exact[3];
+        const double x[3] = {level->x[0][n], level->x[1][n], level->x[2][n]};
+        find_displacement(rkpm, level, x, u, NULL);
+        deformation_value(&rkpm->deformation, x, exact);
+        for (size_t a = 0; a < 3; a++)
+            store->real[COLUMN_POSITION][a][n] = x[a] + u[a];
+        store->real[COLUMN_FIELD][0][n] = u[d - 1];
+        store->real[COLUMN_EXACT][0][n] = exact[d - 1];
+        store->real[COLUMN_COEFFICIENT][0][n] = level->coefficient[n * d + d - 1];
+    }
+}

@@ -1,0 +1,380 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "rkpm/nodal.h"
+#include "base/memory.h"
+#include "base/threads.h"
+#include "rkpm/cells.h"
+#include "rkpm/linear.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { FEW_NODES = 200, SCRATCH_ARRAYS = 3 * AXES + 3 }; /* below these nodes one thread is faster */
+
+/* --- neighbours --- */
+
+/* Nodes whose support reaches a node, or, farther along one axis, the box around it, or, along any, its cell; only as many as
+ * there is room for. */
+THREADS_INLINE int find_neighbours(struct nodal *nodal, size_t node, double slack, const int d)
+{
+    const int most_outside = slack == 0 ? 0 : nodal->cells ? d : 1;
+    const struct search *search = &nodal->search;
+    int32_t *list = nodal->neighbour + node * (size_t)nodal->stride;
+    double middle[AXES] = {0}, inner[AXES], outer[AXES], far = 0;
+    int from[3], to[3], cell[3], n = 0;
+    for (int a = 0; a < d; a++) {
+        middle[a] = nodal->x[a][node];
+        inner[a] = nodal->radius[a] * nodal->reach[node];
+        outer[a] = inner[a] + slack;
+        far = fmax(far, outer[a] / search->size[a]);
+    }
+    search_range(search, middle, far, from, to);
+    for (cell[2] = from[2]; cell[2] <= to[2]; cell[2]++)
+        for (cell[1] = from[1]; cell[1] <= to[1]; cell[1]++)
+            for (cell[0] = from[0]; cell[0] <= to[0]; cell[0]++) {
+                const size_t c = search_cell(search, cell);
+                for (int32_t k = search->first[c]; k < search->first[c + 1]; k++) {
+                    int outside = 0;
+                    for (int a = 0; a < d; a++) {
+                        const double distance = fabs(nodal->x[a][search->node[k]] - middle[a]);
+                        outside += distance >= outer[a] ? AXES + 1 : distance >= inner[a];
+                    }
+                    if (outside > most_outside)
+                        continue;
+                    if (n < nodal->stride)
+                        list[n] = search->node[k];
+                    n++;
+                }
+            }
+    return n;
+}
+
+THREADS_INLINE void gather_places(const struct nodal *nodal, size_t node, struct nodal_scratch *scratch, const int d)
+{
+    const int32_t *list = rkpm_nodal_neighbour(nodal, node);
+    for (int a = 0; a < d; a++)
+        for (int k = 0; k < nodal->neighbours[node]; k++)
+            scratch->place[a][k] = nodal->x[a][list[k]];
+}
+
+/* --- rows of a node --- */
+
+static double *row_of(const struct nodal *nodal, size_t node, int row, int axis)
+{
+    return nodal->gradients + (size_t)(rkpm_nodal_gradient(nodal, node, row, axis) - nodal->gradients);
+}
+
+/* Half the side of a square or cube of a cell's volume. */
+THREADS_INLINE double half_side(double volume, const int d)
+{
+    return 0.5 * (d == 1 ? volume : d == 2 ? sqrt(volume) : cbrt(volume));
+}
+
+THREADS_INLINE void set_weights(const struct nodal *nodal, size_t node, const int d)
+{
+    double *weight = nodal->weights + node * (size_t)nodal->rows;
+    const double volume = nodal->volume[node], half = half_side(volume, d);
+    weight[0] = volume;
+    for (int row = 1; row < nodal->rows && nodal->rule != INTEGRATION_MSCNI; row++)
+        weight[row] = nodal->moment[row - 1] ? nodal->moment[row - 1][node] : volume * half * half / 3;
+}
+
+/* The derivatives of implicit gradients at the node, whose kernels the scratch has. */
+THREADS_INLINE void set_second_rows(const struct nodal *nodal, size_t node, int n, const struct nodal_scratch *scratch,
+                                    const struct polynomials *polynomials, const int d)
+{
+    double b[TERMS];
+    for (int a = 0; a < d; a++) {
+        solve_polynomial(nodal, polynomials, a, b);
+        for (int row = 1; row < nodal->rows; row++)
+            apply_derivative(nodal, scratch, n, polynomials, b, row - 1, row_of(nodal, node, row, a), d);
+    }
+}
+
+/* dni and nsni: gradients at the node itself; of nsni their derivatives too, and of nsni with scni only those. */
+THREADS_INLINE bool set_rows_at_node(const struct nodal *nodal, size_t node, int n, struct nodal_scratch *scratch, const int d)
+{
+    const bool is_direct = nodal->rule == INTEGRATION_DNI && nodal->gradient == GRADIENT_DIRECT;
+    const bool has_second = nodal->rule == INTEGRATION_NSNI || nodal->rule == INTEGRATION_NSNI_SCNI;
+    struct polynomials polynomials;
+    double middle[AXES] = {0}, b[TERMS];
+    for (int a = 0; a < d; a++)
+        middle[a] = nodal->x[a][node];
+    set_kernels(nodal, middle, nodal->reach[node], n, is_direct || has_second, scratch, d);
+    if (!find_values(nodal, scratch, n, &polynomials, nodal->value + node * (size_t)nodal->stride, d))
+        return false;
+    for (int a = 0; a < d && (is_direct || has_second); a++)
+        sum_moments(scratch, scratch->slope[a], n, &polynomials.slope[a][0][0], TERMS, d);
+    for (int a = 0; a < d && !nodal->cells; a++) {
+        solve_polynomial(nodal, &polynomials, is_direct ? -1 : a, b);
+        if (is_direct)
+            apply_derivative(nodal, scratch, n, &polynomials, b, a, row_of(nodal, node, 0, a), d);
+        else
+            apply_polynomial(scratch, n, b, row_of(nodal, node, 0, a), d);
+    }
+    if (has_second)
+        set_second_rows(nodal, node, n, scratch, &polynomials, d);
+    return true;
+}
+
+/* snni: differences between the middles of opposite faces of a square or cube around the node, which is not cut at the boundary. */
+THREADS_INLINE bool set_rows_of_box(const struct nodal *nodal, size_t node, int n, struct nodal_scratch *scratch, const int d)
+{
+    const double half = half_side(nodal->volume[node], d), reach = nodal->reach[node];
+    struct polynomials polynomials;
+    double point[AXES] = {0};
+    for (int a = 0; a < d; a++)
+        point[a] = nodal->x[a][node];
+    set_kernels(nodal, point, reach, n, false, scratch, d);
+    bool good = find_values(nodal, scratch, n, &polynomials, nodal->value + node * (size_t)nodal->stride, d);
+    for (int a = 0; a < d; a++) {
+        for (int side = 0; side < 2; side++) {
+            point[a] = nodal->x[a][node] + (side == 0 ? -half : half);
+            set_kernels(nodal, point, reach, n, false, scratch, d);
+            good = find_values(nodal, scratch, n, &polynomials, scratch->value[side], d) && good;
+        }
+        point[a] = nodal->x[a][node];
+        double *restrict gradient = row_of(nodal, node, 0, a);
+        for (int k = 0; k < n; k++)
+            gradient[k] = (scratch->value[1][k] - scratch->value[0][k]) / (2 * half);
+    }
+    return good;
+}
+
+/* row += factor area Psi(point) of all axes. */
+THREADS_INLINE bool add_values(const struct nodal *nodal, size_t node, int n, int row, const double point[AXES], const double area[AXES],
+                               double factor, struct nodal_scratch *scratch, const int d)
+{
+    struct polynomials polynomials;
+    set_kernels(nodal, point, nodal->reach[node], n, false, scratch, d);
+    const bool good = find_values(nodal, scratch, n, &polynomials, scratch->value[0], d);
+    for (int a = 0; a < d; a++) {
+        double *restrict gradient = row_of(nodal, node, row, a);
+        for (int k = 0; k < n; k++)
+            gradient[k] += factor * area[a] * scratch->value[0][k];
+    }
+    return good;
+}
+
+/* mscni: the gradient in the triangle between the node and an edge, less that of the cell. */
+THREADS_INLINE bool set_row_of_triangle(const struct nodal *nodal, size_t node, int n, int row, const double from[2], const double to[2],
+                                        struct nodal_scratch *scratch)
+{
+    const double middle[2] = {nodal->x[0][node], nodal->x[1][node]};
+    const double *const corner[] = {middle, from, to};
+    const double area = 0.5 * ((from[0] - middle[0]) * (to[1] - middle[1]) - (from[1] - middle[1]) * (to[0] - middle[0]));
+    bool good = true;
+    nodal->weights[node * (size_t)nodal->rows + (size_t)row] = area;
+    for (int a = 0; a < 2; a++)
+        for (int k = 0; k < n; k++)
+            row_of(nodal, node, row, a)[k] = -rkpm_nodal_gradient(nodal, node, 0, a)[k];
+    for (int i = 0; i < 3 && area > 0; i++) {
+        const double *p = corner[i], *q = corner[(i + 1) % 3];
+        const double point[AXES] = {0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])}, normal[AXES] = {q[1] - p[1], p[0] - q[0]};
+        good = add_values(nodal, node, n, row, point, normal, 1 / area, scratch, 2) && good;
+    }
+    return good;
+}
+
+/* scni: integrals over the faces of the cell, and what stabilises them. */
+THREADS_INLINE bool set_rows_of_cell(const struct nodal *nodal, size_t node, int n, struct nodal_scratch *scratch, const int d)
+{
+    const struct cells *cells = nodal->cells;
+    const size_t first = cells->first[node], faces = cells->first[node + 1] - first;
+    bool good = set_rows_at_node(nodal, node, n, scratch, d);
+    for (int a = 0; a < d; a++)
+        memset(row_of(nodal, node, 0, a), 0, (size_t)n * sizeof(double));
+    for (size_t f = 0; f < faces; f++) {
+        const struct cell_face *face = &cells->face[first + f];
+        good = add_values(nodal, node, n, 0, face->middle, face->area, 1 / nodal->volume[node], scratch, d) && good;
+    }
+    for (int row = 1; row < nodal->rows && nodal->rule == INTEGRATION_MSCNI; row++) {
+        const size_t f = (size_t)row - 1;
+        if (f < faces)
+            good = set_row_of_triangle(nodal, node, n, row, cells->face[first + f].corner, cells->face[first + (f + 1) % faces].corner, scratch) && good;
+    }
+    return good;
+}
+
+/* How far the points that a node's rows are made from are away from it. */
+THREADS_INLINE double reach_of_rows(const struct nodal *nodal, size_t node, const int d)
+{
+    double slack = 0;
+    if (nodal->rule == INTEGRATION_SNNI)
+        return half_side(nodal->volume[node], d);
+    for (size_t f = nodal->cells ? nodal->cells->first[node] : 0; nodal->cells && f < nodal->cells->first[node + 1]; f++)
+        for (int a = 0; a < d; a++)
+            slack = fmax(slack, fabs(nodal->cells->face[f].middle[a] - nodal->x[a][node]));
+    return slack;
+}
+
+THREADS_INLINE bool set_rows(const struct nodal *nodal, size_t node, int n, struct nodal_scratch *scratch, const int d)
+{
+    if (nodal->cells)
+        return set_rows_of_cell(nodal, node, n, scratch, d);
+    return nodal->rule == INTEGRATION_SNNI ? set_rows_of_box(nodal, node, n, scratch, d) : set_rows_at_node(nodal, node, n, scratch, d);
+}
+
+THREADS_INLINE void set_node(struct nodal *nodal, size_t node, struct nodal_scratch *scratch, const int d)
+{
+    const int n = find_neighbours(nodal, node, reach_of_rows(nodal, node, d), d);
+    nodal->neighbours[node] = n;
+    if (n > nodal->stride) {
+        scratch->most = n > scratch->most ? n : scratch->most;
+        return;
+    }
+    gather_places(nodal, node, scratch, d);
+    set_weights(nodal, node, d);
+    nodal->is_lowered[node] = !set_rows(nodal, node, n, scratch, d);
+    for (int row = 0; row < nodal->rows && nodal->is_lowered[node]; row++)
+        for (int a = 0; a < d; a++)
+            memset(row_of(nodal, node, row, a), 0, (size_t)n * sizeof(double));
+}
+
+THREADS_VECTORISED
+static void set_node_1(struct nodal *nodal, size_t node, struct nodal_scratch *scratch)
+{
+    set_node(nodal, node, scratch, 1);
+}
+
+THREADS_VECTORISED
+static void set_node_2(struct nodal *nodal, size_t node, struct nodal_scratch *scratch)
+{
+    set_node(nodal, node, scratch, 2);
+}
+
+THREADS_VECTORISED
+static void set_node_3(struct nodal *nodal, size_t node, struct nodal_scratch *scratch)
+{
+    set_node(nodal, node, scratch, 3);
+}
+
+/* --- room --- */
+
+static void open_scratch(struct nodal_scratch *scratch, int stride)
+{
+    const size_t size = (size_t)stride;
+    scratch->most = 0;
+    scratch->room = memory_grow(scratch->room, &scratch->capacity, SCRATCH_ARRAYS * size, sizeof(double), "rows of nodes");
+    double *next = scratch->room;
+    for (int a = 0; a < AXES; a++, next += 3 * size) {
+        scratch->place[a] = next;
+        scratch->xi[a] = next + size;
+        scratch->slope[a] = next + 2 * size;
+    }
+    scratch->kernel = next;
+    scratch->value[0] = next + size;
+    scratch->value[1] = next + 2 * size;
+}
+
+/* Makes room for so many neighbours of each node. */
+static void make_room(struct nodal *nodal, int stride)
+{
+    nodal->room = nodal->count > nodal->room ? nodal->count : nodal->room;
+    const size_t pairs = nodal->room * (size_t)stride;
+    nodal->stride = stride;
+    nodal->neighbour = memory_grow(nodal->neighbour, &nodal->neighbour_capacity, pairs, sizeof *nodal->neighbour, "rows of nodes");
+    nodal->value = memory_grow(nodal->value, &nodal->value_capacity, pairs, sizeof(double), "rows of nodes");
+    nodal->gradients = memory_grow(nodal->gradients, &nodal->gradient_capacity, pairs * (size_t)(nodal->rows * nodal->dimension), sizeof(double),
+                                   "rows of nodes");
+    for (int i = 0; i < nodal->n_scratch; i++)
+        open_scratch(&nodal->scratch[i], stride);
+}
+
+/* --- all nodes --- */
+
+/* The most neighbours of a node; rows are only there where all had room. */
+static int set_all(struct nodal *nodal)
+{
+    static void (*const set[])(struct nodal *, size_t, struct nodal_scratch *) = {NULL, set_node_1, set_node_2, set_node_3};
+    int most = 0;
+    for (int i = 0; i < nodal->n_scratch; i++)
+        nodal->scratch[i].most = 0;
+#pragma omp parallel for schedule(dynamic, 16) if (nodal->count >= FEW_NODES)
+    for (size_t node = 0; node < nodal->count; node++)
+        set[nodal->dimension](nodal, node, &nodal->scratch[threads_self()]);
+    for (int i = 0; i < nodal->n_scratch; i++)
+        most = nodal->scratch[i].most > most ? nodal->scratch[i].most : most;
+    return most;
+}
+
+/* Larger supports at nodes that have too few neighbours; whether there are any. */
+static bool enlarge(struct nodal *nodal)
+{
+    bool changed = false;
+    for (size_t node = 0; node < nodal->count; node++)
+        if (nodal->is_lowered[node]) {
+            nodal->reach[node] *= MOMENTS_ENLARGEMENT;
+            changed = true;
+        }
+    return changed;
+}
+
+void rkpm_nodal_renew(struct nodal *nodal)
+{
+    search_renew(&nodal->search, nodal->count, nodal->x, nodal->radius);
+    for (size_t node = 0; node < nodal->count; node++)
+        nodal->reach[node] = 1;
+    for (int i = 0;; i++) {
+        for (int most = set_all(nodal); most > 0; most = set_all(nodal))
+            make_room(nodal, (most + most / 4 + 3) / 4 * 4);
+        if (!nodal->grows || i == MOMENTS_ENLARGEMENTS || !enlarge(nodal))
+            break;
+    }
+    nodal->enlarged = nodal->lowered = 0;
+    for (size_t node = 0; node < nodal->count; node++) {
+        nodal->lowered += nodal->is_lowered[node];
+        nodal->enlarged += !nodal->is_lowered[node] && nodal->reach[node] > 1;
+    }
+}
+
+/* With what the caller has said. */
+static void open_rows(struct nodal *nodal, const double radius[3])
+{
+    const size_t count = nodal->count;
+    for (int a = 0; a < 3; a++)
+        nodal->radius[a] = radius[a];
+    nodal->neighbours = memory_array(count, sizeof *nodal->neighbours, "rows of nodes");
+    nodal->weights = memory_array(count * (size_t)nodal->rows, sizeof(double), "rows of nodes");
+    nodal->reach = memory_array(count, sizeof(double), "rows of nodes");
+    nodal->is_lowered = memory_array(count, sizeof *nodal->is_lowered, "rows of nodes");
+    nodal->n_scratch = threads_available();
+    nodal->scratch = memory_array((size_t)nodal->n_scratch, sizeof *nodal->scratch, "rows of nodes");
+    search_open(&nodal->search, nodal->dimension, count, nodal->x, radius);
+    make_room(nodal, 8);
+    rkpm_nodal_renew(nodal);
+}
+
+void rkpm_nodal_open(struct nodal *nodal, int dimension, enum integration_form rule, enum gradient_form gradient, size_t count,
+                     double *const *x, const double *volume, const double *const *moment, const double radius[3], bool grows)
+{
+    *nodal = (struct nodal){.dimension = dimension, .rule = rule, .gradient = gradient, .count = count, .x = x, .volume = volume, .grows = grows};
+    nodal->rows = rule == INTEGRATION_NSNI ? 1 + dimension : 1;
+    for (int a = 0; a < 3; a++)
+        nodal->moment[a] = moment ? moment[a] : NULL;
+    open_rows(nodal, radius);
+}
+
+void rkpm_nodal_open_cells(struct nodal *nodal, enum integration_form rule, const struct cells *cells, double *const *x, const double radius[3])
+{
+    *nodal = (struct nodal){.dimension = cells->dimension, .rule = rule, .gradient = GRADIENT_IMPLICIT, .count = cells->count, .x = x,
+                            .volume = cells->volume, .cells = cells, .grows = true};
+    nodal->rows = 1 + (rule == INTEGRATION_NSNI_SCNI ? cells->dimension : rule == INTEGRATION_MSCNI ? cells->most : 0);
+    for (int a = 0; a < 3; a++)
+        nodal->moment[a] = cells->moment[a];
+    open_rows(nodal, radius);
+}
+
+void rkpm_nodal_close(struct nodal *nodal)
+{
+    search_close(&nodal->search);
+    for (int i = 0; i < nodal->n_scratch; i++)
+        memory_free(nodal->scratch[i].room);
+    memory_free(nodal->scratch);
+    memory_free(nodal->neighbours);
+    memory_free(nodal->neighbour);
+    memory_free(nodal->value);
+    memory_free(nodal->gradients);
+    memory_free(nodal->weights);
+    memory_free(nodal->reach);
+    memory_free(nodal->is_lowered);
+}

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Solves the linear systems of bodies: directly, by an envelope or a band, or by conjugate gradients where that takes less. */
+#ifndef RKPM_SOLVER_H
+#define RKPM_SOLVER_H
+
+#include "base/banded.h"
+#include "base/envelope.h"
+#include "rkpm/body.h"
+
+enum solver_kind { SOLVER_ENVELOPE, SOLVER_BANDED, SOLVER_CONJUGATE };
+
+struct solver {
+    enum solver_kind kind;
+    const struct body *body;
+    int32_t *of_row;     /* per row of the body's matrix: its first unknown */
+    int32_t *of_held;    /* per held row: its first multiplier */
+    int32_t *first;      /* per unknown: the first one that it is coupled with */
+    int32_t count, width;
+    double scale;        /* of held rows */
+    struct envelope envelope;
+    struct banded banded;
+    double *unknown;
+    double bytes;
+};
+
+/* Makes room for systems of a body. */
+void solver_open(struct solver *solver, const struct body *body);
+void solver_close(struct solver *solver);
+
+/* Takes the body's matrix; false where it is singular, or not positive where it should be. */
+bool solver_factor(struct solver *solver);
+
+/* Coefficients by rows of the matrix from a right side; `given` are the held rows, D numbers each. */
+void solver_solve(struct solver *solver, const double *right, const double *given, double *coefficients);
+
+#endif
