@@ -54,7 +54,7 @@ static void check_needs(struct reader *reader)
                 {"cons", "'prob helmholtz', 'prob poisson' or 'prob elastic'", is_solved},
                 {"gbou", "'inte gauss' and 'cons lagr', 'cons pena' or 'cons nits', or 'prob elastic'",
                  is_solved && is_gauss && (is_elastic || rkpm->constraint != CONSTRAINT_TRANSFORMATION)},
-                {"elas", "'prob elastic'", is_elastic},
+                {"modu", "'prob elastic'", is_elastic},
                 {"plan", "'prob elastic' and 'dime 2'", is_elastic && rkpm->dimension == 2},
                 {"forc", "'func beam'", rkpm->function == FUNCTION_BEAM},
                 {"held", "'prob elastic'", is_elastic},
@@ -85,8 +85,8 @@ static void check_function(struct reader *reader)
         diagnostics_error(reader->diagnostics, place_of(reader, "func"), "'func beam' needs 'dime 2'");
     if (rkpm->function == FUNCTION_BEAM && !was_given(reader, "forc"))
         diagnostics_error(reader->diagnostics, place_of(reader, "func"), "the load of the beam is not given; expected 'forc p'");
-    if (is_elastic && !was_given(reader, "elas"))
-        diagnostics_error(reader->diagnostics, place_of(reader, "prob"), "the moduli are not given; expected 'elas young poisson'");
+    if (is_elastic && !was_given(reader, "modu"))
+        diagnostics_error(reader->diagnostics, place_of(reader, "prob"), "the moduli are not given; expected 'modu young poisson'");
 }
 
 /* Nodal rules are linear; cells of nodes off the lattice are made in a plane. */

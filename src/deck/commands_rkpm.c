@@ -134,7 +134,7 @@ const struct keyword rkpm_keywords[] = {
      .doc = "exact solution: sin x sin y sin z (sine), exp(x y z) (expo), sin k(x1 - x)/sin k(x1 - x0) with the wave number and ends of the box "
             "(wave), 1 + x + 2 y + 3 z (line); y and z as far as there are dimensions. Of elastic: linear displacements (patch); in two "
             "dimensions Timoshenko's cantilever (beam), held at the low end along x and loaded along y at the high one"},
-    {.name = "elas", .long_name = "elastic", .arguments = LIST(NUMBER("young", "stress", LIMIT_POSITIVE), NUMBER("poisson", NULL, LIMIT_POISSON)),
+    {.name = "modu", .long_name = "moduli", .arguments = LIST(NUMBER("young", "stress", LIMIT_POSITIVE), NUMBER("poisson", NULL, LIMIT_POISSON)),
      .field = FIELD(young), .doc = "Young's modulus and Poisson's ratio of elastic"},
     {.name = "plan", .long_name = "plane", .arguments = WORD("stress|strain"), .choice = CHOICE(planes, plane),
      .doc = "of elastic in two dimensions: no stress (stress, default) or no strain (strain) across the plane"},

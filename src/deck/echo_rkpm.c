@@ -24,7 +24,7 @@ static bool has_word(const struct scene_rkpm *rkpm, const char *name)
         return rkpm->problem == PROBLEM_HELMHOLTZ || rkpm->function == FUNCTION_WAVE;
     if (strcmp(name, "plan") == 0)
         return rkpm->problem == PROBLEM_ELASTIC && rkpm->dimension == 2;
-    if (strcmp(name, "elas") == 0 || strcmp(name, "inte") == 0 || strcmp(name, "vci") == 0)
+    if (strcmp(name, "modu") == 0 || strcmp(name, "inte") == 0 || strcmp(name, "vci") == 0)
         return rkpm->problem == PROBLEM_ELASTIC;
     if (strcmp(name, "forc") == 0)
         return rkpm->function == FUNCTION_BEAM;
