@@ -13,8 +13,9 @@ static void print_box(const struct rkpm *rkpm, const struct rkpm_level *level, F
         fprintf(stream, "%s%.6g", a == 0 ? ", spacing " : " ", level->box.spacing[a]);
     const bool is_elastic = rkpm->words->problem == PROBLEM_ELASTIC;
     if (rkpm->words->problem != PROBLEM_APPROXIMATION)
-        fprintf(stream, "; %d unknowns, matrix of %.0f bytes at most", is_elastic ? level->solver.count : level->system.count,
-                is_elastic ? level->solver.bytes : level->system.bytes);
+        fprintf(stream, "; %d unknowns, matrix of %.0f bytes at most%s", is_elastic ? level->solver.count : level->system.count,
+                is_elastic ? level->solver.bytes : level->system.bytes,
+                is_elastic && level->solver.kind == SOLVER_CONJUGATE ? ", solved by conjugate gradients" : "");
     fprintf(stream, "\n");
 }
 

@@ -43,7 +43,7 @@ void rkpm_elastic_open(struct rkpm *rkpm, struct rkpm_level *level)
     const struct scene_rkpm *words = rkpm->words;
     struct body *body = &level->body;
     body_open(body, words, &level->box, level->count, level->x, &level->shape, rkpm->gauss, rkpm->boundary_gauss, level->beta * words->young);
-    solver_open(&level->solver, body);
+    solver_open(&level->solver, body, SOLVER_MOST_WORK);
     level->shape.enlarged += body->inside.enlarged + body->faces.enlarged;
     level->shape.lowered += body->inside.lowered + body->faces.lowered;
     give_faces(rkpm, body);
@@ -73,8 +73,7 @@ void rkpm_elastic_solve(struct rkpm *rkpm, struct rkpm_level *level)
         held_give_nodes(&body->held, body->x, body->dimension, displacement, &rkpm->deformation, given);
     else if (body->constraint == CONSTRAINT_LAGRANGE)
         held_give_hats(&body->held, body->box, &body->faces, body->is_held, displacement, &rkpm->deformation, given);
-    if (solver_factor(&level->solver)) {
-        solver_solve(&level->solver, right, given, right);
+    if (solver_factor(&level->solver) && solver_solve(&level->solver, right, given, right)) {
         body_by_nodes(body, right, level->coefficient);
     } else {
         struct instability *instability = &rkpm->instability;
