@@ -167,9 +167,9 @@ const struct keyword rkpm_keywords[] = {
     {.name = "rule", .arguments = WORD("exponential|midpoint"), .choice = CHOICE(rules, rule),
      .doc = "the rule of elements' steps in creep: exact where strains grow linearly (exponential, default), or the midpoint's, which needs "
             "steps shorter than relaxation times"},
-    {.name = "volu", .long_name = "volume", .arguments = WORD("off|on"), .choice = &(const struct keyword_choice){off_on, FIELD(relaxes_volume), true},
+    {.name = "vrel", .long_name = "vrelaxation", .arguments = WORD("off|on"), .choice = &(const struct keyword_choice){off_on, FIELD(relaxes_volume), true},
      .doc = "on: in creep pressure relaxes as well, else it stays that of all moduli together (off, default)"},
-    {.name = "time", .arguments = LIST(NUMBER("end", "time", LIMIT_POSITIVE), NUMBER("step", "time", LIMIT_POSITIVE)), .field = FIELD(end_time),
+    {.name = "span", .arguments = LIST(NUMBER("end", "time", LIMIT_POSITIVE), NUMBER("step", "time", LIMIT_POSITIVE)), .field = FIELD(end_time),
      .doc = "creep goes on to an end, in steps of this length, or a little less where the load changes"},
     {.name = "from", .arguments = LIST(NUMBER("time", "time", LIMIT_NOT_NEGATIVE), NUMBER("factor", NULL, LIMIT_NONE)), .apply = add_load,
      .doc = "from this moment on the load of creep is that of `forc` times the factor: a jump, in a step of no length. In the order of time"},

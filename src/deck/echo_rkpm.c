@@ -27,7 +27,7 @@ static bool has_word(const struct scene_rkpm *rkpm, const char *name)
         return is_body && rkpm->dimension == 2;
     if (strcmp(name, "modu") == 0 || strcmp(name, "inte") == 0 || strcmp(name, "vci") == 0)
         return is_body;
-    if (strcmp(name, "rule") == 0 || strcmp(name, "volu") == 0 || strcmp(name, "time") == 0)
+    if (strcmp(name, "rule") == 0 || strcmp(name, "vrel") == 0 || strcmp(name, "span") == 0)
         return is_creep;
     if (strcmp(name, "forc") == 0)
         return rkpm->function == FUNCTION_BEAM || rkpm->function == FUNCTION_LOAD;
