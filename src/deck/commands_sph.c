@@ -314,8 +314,8 @@ const struct keyword sph_keywords[] = {
      .doc = "drag of the mush K0 (1 - s)^2/(s^3 + 0.001), s liquid fraction; 0: none (0)"},
     {.name = "ejec", .long_name = "ejected", .arguments = LIST(NUMBER("T", "temperature", LIMIT_NOT_NEGATIVE)), .field = FIELD(ejected_above),
      .apply = read_ejected,
-     .doc = "what came off the metal tears where it would be pulled, and is removed when it is hotter than this, with its heat; with `thru` behind it the beam goes through what came off, which in a slice "
-            "would shade all that is below; 0: nothing of this (0; 6000 in the dissertation)"},
+     .doc = "what came off the metal tears where it would be pulled, and is removed when it is hotter than this, with its heat; with `thru` behind it the beam goes through what came off and through threads of single particles, which in a "
+            "slice would shade all that is below, and get as hot as nothing that conducts; 0: nothing of this (0; 6000 in the dissertation)"},
     {.name = "base", .arguments = LIST(LENGTH("height")), .field = FIELD(base),
      .doc = "height of the surface below which penetration (curv pene) is measured (0)"},
     {.name = "jitt", .long_name = "jitter",

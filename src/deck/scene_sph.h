@@ -121,7 +121,7 @@ struct scene_sph {
     long seed;
     bool jitters_solids;
     double ejected_above;     /* what came off the metal and is hotter is removed; 0: nothing */
-    bool lets_beam_through;   /* what came off is not hit by the beam */
+    bool lets_beam_through;   /* what came off and threads are not hit by the beam */
     double base;              /* height of the surface from which penetration is measured */
     double volume_heat;       /* power per volume everywhere */
     struct scene_beam beam;

@@ -61,7 +61,7 @@ static const struct column_row rows[COLUMN_COUNT] = {
     [COLUMN_LAYER] = {"layer", 1, true, 0, NULL, "layer of the build, from 0"},
     [COLUMN_STATE] = {"state", 1, true, 0, NULL, "0 fluid, 1 solid, 2 wall, 3 removed"},
     [COLUMN_FUSED] = {"fused", 1, true, 0, NULL, "1 where it has been melt, at least half liquid, since the start"},
-    [COLUMN_PARTED] = {"parted", 1, true, 0, NULL, "1 where it came off the metal"},
+    [COLUMN_PARTED] = {"parted", 1, true, 0, NULL, "1 where it came off the metal, 2 in a thread of single particles"},
 };
 
 const struct column_row *column_row(enum column column)

@@ -240,7 +240,7 @@ static const struct result rows[] = {
     {.name = "liqu", .doc = "liquid fraction", SPH, .columns = {COLUMN_LIQUID}, .value = liquid},
     {.name = "fuse", .doc = "1 where it has been melt, at least half liquid, since the start; with heat", .is_integer = true, SPH,
      .columns = {COLUMN_FUSED}, .value = fused},
-    {.name = "part", .doc = "1 where it came off, and hangs together with no metal any more; with ejec", .is_integer = true,
+    {.name = "part", .doc = "1 where it came off and hangs together with no metal any more, 2 in a thread of single particles; with ejec", .is_integer = true,
      SPH, .columns = {COLUMN_PARTED}, .value = parted},
     {.name = "enth", .unit = "energy/mass", .doc = "specific enthalpy, 0 at 293; with heat", SPH, .columns = {COLUMN_ENTHALPY},
      .value = enthalpy},

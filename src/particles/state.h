@@ -10,4 +10,11 @@ enum sph_state {
     SPH_REMOVED  /* takes part in nothing any more */
 };
 
+/* How it hangs together with the metal (COLUMN_PARTED). */
+enum sph_parted {
+    SPH_HOLDS,
+    SPH_CAME_OFF, /* not at all */
+    SPH_OF_THREAD /* by a thread of single particles */
+};
+
 #endif

@@ -175,7 +175,7 @@ static double density_of(const struct sph *sph, size_t p, double density)
     const double rest = sph_rest_density(c, p);
     if (c->shepard[p] <= sph_own_part(sph, p))
         return rest;
-    return c->parted && c->parted[p] && density < rest ? rest : density;
+    return c->parted && c->parted[p] == SPH_CAME_OFF && density < rest ? rest : density;
 }
 
 void flow_density(struct sph *sph, double time_step)

@@ -137,7 +137,7 @@ static int32_t base_of_particle(const struct sph_march *march, const struct sph 
     double way;
     if (sph->columns.state[p] != SPH_FLUID && sph->columns.state[p] != SPH_SOLID)
         return -1;
-    if (sph->words->lets_beam_through && sph->columns.parted && sph->columns.parted[p])
+    if (sph->words->lets_beam_through && sph->columns.parted && sph->columns.parted[p] != SPH_HOLDS)
         return -1;
     if (!(fabs(sph->columns.x[march->lateral][p]) < FARTHEST * march->cell))
         return -1;

@@ -135,8 +135,9 @@ void remove_ejected(struct sph *sph)
         return;
     const int32_t main = find_clusters(sph);
     for (size_t p = 0; p < sph->store->count; p++) {
-        c->parted[p] = c->state[p] == SPH_FLUID && sph->clusters[p] != main;
-        if (c->parted[p] && c->temperature[p] > hottest)
+        const bool came_off = c->state[p] == SPH_FLUID && sph->clusters[p] != main;
+        c->parted[p] = came_off ? SPH_CAME_OFF : is_of_thread(sph, p) ? SPH_OF_THREAD : SPH_HOLDS;
+        if (came_off && c->temperature[p] > hottest)
             remove_particle(sph, p);
     }
 }

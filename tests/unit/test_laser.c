@@ -168,7 +168,7 @@ static void test_through(void)
         for (size_t p = 0; p < fixture->sph.store->count; p++) {
             const int layer = LAYERS - 1 - (int)(c->x[1][p] / SPACING);
             top[i] += layer == i ? c->laser_power[p] : 0;
-            parted[p] = layer == 0;
+            parted[p] = layer > 0 ? SPH_HOLDS : c->x[0][p] > 0.5 * WIDE * SPACING ? SPH_CAME_OFF : SPH_OF_THREAD;
         }
         c->parted = parted;
     }

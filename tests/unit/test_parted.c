@@ -26,13 +26,13 @@ static struct fixture *open_scene(int32_t *parted)
     return fixture;
 }
 
-/* How many particles of one temperature are left and marked as come off, or not. */
-static int count_of(const struct fixture *fixture, double temperature, bool is_off)
+/* How many particles of one temperature are left and have a mark. */
+static int count_of(const struct fixture *fixture, double temperature, enum sph_parted mark)
 {
     const struct sph_columns *c = &fixture->sph.columns;
     int count = 0;
     for (size_t p = 0; p < fixture->sph.store->count; p++)
-        count += c->temperature[p] == temperature && c->state[p] != SPH_REMOVED && c->parted[p] == is_off;
+        count += c->temperature[p] == temperature && c->state[p] != SPH_REMOVED && c->parted[p] == (int32_t)mark;
     return count;
 }
 
@@ -41,9 +41,11 @@ static void test_marks(void)
     int32_t parted[143] = {0};
     struct fixture *fixture = open_scene(parted);
     remove_ejected(&fixture->sph);
-    check_true("plate and melt hold", count_of(fixture, 300, false) == 48 && count_of(fixture, 2000, false) == 48);
-    check_true("a block at the end of a thread is off", count_of(fixture, 2200, true) == 25);
-    check_true("a hot drop that is off is removed", count_of(fixture, 7000, true) == 0 && fixture->sph.budget.removed == 16);
+    check_true("a plate holds", count_of(fixture, 300, SPH_HOLDS) == 48);
+    check_true("melt holds but for its two sharp corners", count_of(fixture, 2000, SPH_HOLDS) == 46 && count_of(fixture, 2000, SPH_OF_THREAD) == 2);
+    check_true("a row of single ones is a thread", count_of(fixture, 2100, SPH_OF_THREAD) > 0);
+    check_true("a block at the end of a thread came off", count_of(fixture, 2200, SPH_CAME_OFF) == 25);
+    check_true("a hot drop that came off is removed", count_of(fixture, 7000, SPH_CAME_OFF) == 0 && fixture->sph.budget.removed == 16);
     memory_free(fixture->sph.clusters);
     fixture_close(fixture);
 }
