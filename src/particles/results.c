@@ -273,7 +273,7 @@ static const struct result rows[] = {
     {.name = "umax", .unit = "length/time", .doc = "highest speed of fluid", SPH = TOTAL_FASTEST},
     {.name = "remo", .doc = "particles that left the grid or were removed by ejec since the start", SPH = TOTAL_REMOVED},
     {.name = "deta", .doc = "particles that hang together neither with solids nor walls; without those, with the largest piece", SPH = TOTAL_DETACHED},
-    {.name = "pool", .unit = "length", .doc = "length of the melt pool along x", SPH = TOTAL_POOL_LENGTH},
+    {.name = "pool", .unit = "length", .doc = "length of the melt pool along x; with ejec without drops in flight", SPH = TOTAL_POOL_LENGTH},
     {.name = "poow", .unit = "length", .doc = "width of the melt pool along y; 0 in two dimensions", SPH = TOTAL_POOL_WIDTH},
     {.name = "pood", .unit = "length", .doc = "height of the melt pool along z, in two dimensions along y", SPH = TOTAL_POOL_DEPTH},
 #define FUSED .columns = {COLUMN_FUSED, COLUMN_INITIAL_POSITION}
@@ -281,7 +281,7 @@ static const struct result rows[] = {
      SPH = TOTAL_FUSED_LENGTH},
     {.name = "fusw", .unit = "length", .doc = "its width along y; 0 in two dimensions", FUSED, SPH = TOTAL_FUSED_WIDTH},
     {.name = "pene", .unit = "length", .doc = "penetration: how far below `base` it reaches", FUSED, SPH = TOTAL_PENETRATION},
-    {.name = "roug", .unit = "length", .doc = "roughness of the track: the top of what has been melt, along x, its highest less its lowest",
+    {.name = "roug", .unit = "length", .doc = "roughness of the track: the top of what has been melt, along x, its highest less its lowest; with ejec without drops in flight",
      FUSED, SPH = TOTAL_ROUGHNESS},
 #undef FUSED
 #undef SPH

@@ -5,17 +5,23 @@
 #include <float.h>
 #include <math.h>
 
-static bool is_molten(const struct sph *sph, size_t p)
+/* Drops in flight are neither of the pool nor of the track; only runs with ejec know them. */
+static bool came_off(const struct sph *sph, size_t p)
+{
+    return sph->columns.parted && sph->columns.parted[p] == SPH_CAME_OFF;
+}
+
+static bool is_of_pool(const struct sph *sph, size_t p)
 {
     const struct sph_columns *c = &sph->columns;
-    return c->state[p] == SPH_FLUID && c->liquid[p] >= 0.5 && sph->bodies[c->body[p]].properties->melts;
+    return c->state[p] == SPH_FLUID && c->liquid[p] >= 0.5 && sph->bodies[c->body[p]].properties->melts && !came_off(sph, p);
 }
 
 void sph_pool(const struct sph *sph, double extents[3])
 {
     double low[3] = {DBL_MAX, DBL_MAX, DBL_MAX}, high[3] = {-DBL_MAX, -DBL_MAX, -DBL_MAX};
     for (size_t p = 0; p < sph->store->count; p++)
-        for (int a = 0; a < 3 && is_molten(sph, p); a++) {
+        for (int a = 0; a < 3 && is_of_pool(sph, p); a++) {
             low[a] = fmin(low[a], sph->columns.x[a][p]);
             high[a] = fmax(high[a], sph->columns.x[a][p]);
         }
@@ -31,7 +37,7 @@ static double start_of(const struct sph *sph, size_t p, int axis)
     return sph->store->real[COLUMN_INITIAL_POSITION][axis][p];
 }
 
-static bool is_of_track(const struct sph *sph, size_t p)
+static bool has_been_melt(const struct sph *sph, size_t p)
 {
     return sph->columns.fused[p] && sph->columns.state[p] != SPH_REMOVED;
 }
@@ -44,7 +50,7 @@ static void find_tops(const struct sph *sph, double low, size_t columns, double 
         tops[i] = -DBL_MAX;
     for (size_t p = 0; p < sph->store->count; p++) {
         const double column = floor((x[p] - low) / (2 * sph->spacing));
-        if (is_of_track(sph, p) && column >= 0 && column < (double)columns)
+        if (has_been_melt(sph, p) && !came_off(sph, p) && column >= 0 && column < (double)columns)
             tops[(size_t)column] = fmax(tops[(size_t)column], height[p]);
     }
 }
@@ -72,7 +78,7 @@ struct sph_track sph_track(const struct sph *sph)
     double low[3] = {DBL_MAX, DBL_MAX, DBL_MAX}, high[3] = {-DBL_MAX, -DBL_MAX, -DBL_MAX};
     struct sph_track track = {{0}, 0, 0};
     for (size_t p = 0; p < sph->store->count; p++)
-        for (int a = 0; a < 3 && is_of_track(sph, p); a++) {
+        for (int a = 0; a < 3 && has_been_melt(sph, p); a++) {
             low[a] = fmin(low[a], start_of(sph, p, a));
             high[a] = fmax(high[a], start_of(sph, p, a));
         }
