@@ -273,10 +273,15 @@ static void check_support(struct reader *reader)
 static void check_wave(struct reader *reader)
 {
     const struct scene_rkpm *rkpm = &reader->scene->rkpm;
-    const double turns = rkpm->wave_number * (rkpm->box[1] - rkpm->box[0]);
-    if (rkpm->function == FUNCTION_WAVE && was_given(reader, "wave") && !(fabs(sin(turns)) > 1e-9))
-        diagnostics_error(reader->diagnostics, place_of(reader, "wave"), 
+    for (size_t i = 0; i < rkpm->n_levels && rkpm->function == FUNCTION_WAVE && was_given(reader, "wave"); i++) {
+        const double length = rkpm->box[1] - rkpm->box[0], cells = fmax((double)(rkpm->levels[i][0] - 1), 1);
+        const double turns = rkpm->wave_number * (rkpm->wave_over_spacing ? cells : length);
+        if (fabs(sin(turns)) > 1e-9)
+            continue;
+        diagnostics_error(reader->diagnostics, place_of(reader, "wave"),
                           "%g half waves fit between the ends of the box: none is 1 at one end and 0 at the other", turns / acos(-1));
+        break;
+    }
 }
 
 static void check_beta(struct reader *reader)

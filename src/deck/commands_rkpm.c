@@ -126,6 +126,15 @@ static void add_load(struct reader *reader, const struct deck_word *word, const 
     rkpm->loads[rkpm->n_loads++][1] = values[1].real;
 }
 
+/* A wave number that follows the spacing makes each level another problem: no order can be measured. */
+static void read_wave(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    static const char *const names[] = {"/h", NULL};
+    (void)word;
+    (void)values;
+    reader->scene->rkpm.wave_over_spacing = reader_optional(reader, names) == 0;
+}
+
 static void read_beta(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     static const char *const names[] = {"/h", NULL};
@@ -187,8 +196,8 @@ const struct keyword rkpm_keywords[] = {
             "(nsni) or scni (nsci), with triangles of cells beside scni (mscni, two dimensions). nsci is the best at nodes"},
     {.name = "vci", .arguments = WORD("off|on"), .choice = &(const struct keyword_choice){off_on, FIELD(is_consistent), true},
      .doc = "on: gradients of test functions are corrected so that integration passes patch tests; the matrix is not symmetric then"},
-    {.name = "wave", .arguments = LIST(NUMBER("k", "1/length", LIMIT_POSITIVE)), .field = FIELD(wave_number),
-     .doc = "wave number k of helmholtz and of func wave"},
+    {.name = "wave", .arguments = LIST(NUMBER("k", "1/length", LIMIT_POSITIVE)), .field = FIELD(wave_number), .apply = read_wave,
+     .doc = "wave number k of helmholtz and of func wave; with `/h` behind it over the spacing along x, another problem for each of refi"},
     {.name = "gaus", .long_name = "gauss", .arguments = POINTS, .field = FIELD(gauss),
      .doc = "Gauss points per cell and axis of helmholtz, poisson and elastic (2; 5 with quad)"},
     {.name = "gbou", .long_name = "gboundary", .arguments = POINTS, .field = FIELD(boundary_gauss),

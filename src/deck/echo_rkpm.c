@@ -49,7 +49,9 @@ static void echo_word(const struct scene *scene, const struct keyword *row, FILE
         fprintf(stream, "  %s %ld", row->name, *(const long *)(const void *)field);
     else
         print_numbers(stream, row->name, (const double *)(const void *)field, argument_count(row->arguments));
-    fputs(strcmp(row->name, "beta") == 0 && scene->rkpm.beta_over_spacing ? " /h\n" : "\n", stream);
+    const bool is_over_spacing = (strcmp(row->name, "beta") == 0 && scene->rkpm.beta_over_spacing) ||
+                                 (strcmp(row->name, "wave") == 0 && scene->rkpm.wave_over_spacing);
+    fputs(is_over_spacing ? " /h\n" : "\n", stream);
 }
 
 static void echo_held(const struct scene_rkpm *rkpm, FILE *stream)
