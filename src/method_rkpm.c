@@ -25,13 +25,14 @@ static struct instability advance(struct run *run)
 static void look(struct run *run)
 {
     const long step = run->rkpm->step;
-    run->course = (struct run_course){step, (double)step, 1, 0};
-    run->totals.time = (double)step;
+    const double time = run->scene->rkpm.problem == PROBLEM_CREEP ? run->rkpm->time : (double)step;
+    run->course = (struct run_course){step, time, 1, 0};
+    run->totals.time = time;
 }
 
 static bool goes_on(const struct run *run)
 {
-    return (size_t)run->rkpm->step < run->rkpm->n_levels;
+    return rkpm_goes_on(run->rkpm);
 }
 
 static void exchange(struct run *run, struct checkpoint *checkpoint)
@@ -42,13 +43,29 @@ static void exchange(struct run *run, struct checkpoint *checkpoint)
 static void start_table(struct run *run)
 {
     const bool is_elastic = run->scene->rkpm.problem == PROBLEM_ELASTIC;
+    if (run->scene->rkpm.problem == PROBLEM_CREEP) {
+        fprintf(run->errors.stream, "VARIABLES = \"t\" \"load\" \"tip\"\n");
+        return;
+    }
     fprintf(run->errors.stream, "VARIABLES = \"n\" \"nx\" \"h\" \"L2\" \"H1\" \"rateL2\" \"rateH1\"%s\n",
             is_elastic ? " \"L2x\" \"L2y\" \"L2z\" \"energy\" \"tip\"" : "");
+}
+
+/* The line of the last step in time. */
+static bool write_step(struct run *run)
+{
+    const double values[] = {run->rkpm->time, run->rkpm->load, run->rkpm->tip};
+    for (size_t i = 0; i < sizeof values / sizeof values[0]; i++)
+        table_real(&run->errors, values[i]);
+    table_end_line(&run->errors);
+    return table_flush(&run->errors);
 }
 
 /* The line of the last level. */
 static bool write_table(struct run *run)
 {
+    if (run->scene->rkpm.problem == PROBLEM_CREEP)
+        return write_step(run);
     const struct rkpm_level *level = &run->rkpm->levels[run->rkpm->step - 1];
     const struct rkpm_result *result = &level->result;
     const double values[] = {level->box.spacing[0], result->l2, result->h1, result->l2_rate, result->h1_rate,

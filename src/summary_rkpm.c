@@ -11,10 +11,11 @@ static void print_box(const struct rkpm *rkpm, const struct rkpm_level *level, F
         fprintf(stream, "%s%ld", a == 0 ? " " : " x ", level->box.numbers[a]);
     for (int a = 0; a < level->box.dimension; a++)
         fprintf(stream, "%s%.6g", a == 0 ? ", spacing " : " ", level->box.spacing[a]);
-    const bool is_elastic = rkpm->words->problem == PROBLEM_ELASTIC;
+    const bool has_body = rkpm_has_body(rkpm);
+    const struct solver *solver = rkpm->words->problem == PROBLEM_CREEP ? rkpm->creep.solver : &level->solver;
     if (rkpm->words->problem != PROBLEM_APPROXIMATION)
-        fprintf(stream, "; %d unknowns, matrix of %.0f bytes at most", is_elastic ? level->solver.count : level->system.count,
-                is_elastic ? level->solver.bytes : level->system.bytes);
+        fprintf(stream, "; %d unknowns, matrix of %.0f bytes at most%s", has_body ? solver->count : level->system.count,
+                has_body ? solver->bytes : level->system.bytes, has_body && solver->kind == SOLVER_CONJUGATE ? ", solved by conjugate gradients" : "");
     fprintf(stream, "\n");
 }
 
@@ -40,7 +41,7 @@ void summary_rkpm_start(const struct run *run, FILE *stream)
 void summary_rkpm_instability(const struct run *run, const struct instability *instability, FILE *stream)
 {
     const struct rkpm *rkpm = run->rkpm;
-    fprintf(stream, "mpm3d: the run is stopped with %zu nodes: %s\n", rkpm->levels[rkpm->step - 1].count, instability->cause);
+    fprintf(stream, "mpm3d: the run is stopped with %zu nodes: %s\n", rkpm->levels[rkpm->words->problem == PROBLEM_CREEP ? 0 : rkpm->step - 1].count, instability->cause);
     fprintf(stream, "       %s; the output up to the step before is kept\n", instability->advice);
 }
 
@@ -63,12 +64,15 @@ void summary_rkpm_end(const struct run *run, double seconds, enum status status,
     const struct rkpm *rkpm = run->rkpm;
     long enlarged = 0, lowered = 0;
     summary_timers(rkpm->updates, &run->timers, seconds, stream);
-    print_errors(rkpm, stream);
-    for (long i = 0; i < rkpm->step; i++) {
+    const bool is_creep = rkpm->words->problem == PROBLEM_CREEP;
+    const long levels = is_creep ? 1 : rkpm->step;
+    if (!is_creep)
+        print_errors(rkpm, stream);
+    for (long i = 0; i < levels; i++) {
         enlarged += rkpm->levels[i].result.enlarged;
         lowered += rkpm->levels[i].result.lowered;
     }
-    fprintf(stream, "%s after %ld of %zu problems: ", summary_ending(status), rkpm->step, rkpm->n_levels);
+    fprintf(stream, is_creep ? "%s after %ld of %zu steps: " : "%s after %ld of %zu problems: ", summary_ending(status), rkpm->step, is_creep ? rkpm->creep.n_steps : rkpm->n_levels);
     if (enlarged == 0 && lowered == 0)
         fprintf(stream, "no point had too few nodes\n");
     else

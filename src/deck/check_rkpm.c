@@ -11,7 +11,7 @@
 static const double MOST_NODES = 1e7, LARGEST_SUPPORT = 20;
 /* Above this, times the spacing, the trace between boundary nodes is held more than it can follow (spec 4). */
 static const double LARGEST_BETA = 1e3;
-static const double LARGEST_JITTER = 0.45;
+static const double LARGEST_JITTER = 0.45, MOST_STEPS = 1e7;
 
 static bool was_given(const struct reader *reader, const char *name)
 {
@@ -28,8 +28,8 @@ static bool check_missing(struct reader *reader)
 {
     static const struct {
         const char *name, *expected;
-    } rows[] = {{"node", "node box x0 x1 ... nx ..."}, {"supp", "supp a"}, {"prob", "prob approx|helmholtz|poisson|elastic"},
-                {"func", "func sine|expo|wave|line|patch|beam"}};
+    } rows[] = {{"node", "node box x0 x1 ... nx ..."}, {"supp", "supp a"}, {"prob", "prob approx|helmholtz|poisson|elastic|creep"},
+                {"func", "func sine|expo|wave|line|patch|beam|load"}};
     bool good = true;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         if (was_given(reader, rows[i].name))
@@ -45,7 +45,8 @@ static bool check_missing(struct reader *reader)
 static void check_needs(struct reader *reader)
 {
     const struct scene_rkpm *rkpm = &reader->scene->rkpm;
-    const bool is_solved = rkpm->problem != PROBLEM_APPROXIMATION, is_elastic = rkpm->problem == PROBLEM_ELASTIC;
+    const bool is_solved = rkpm->problem != PROBLEM_APPROXIMATION, is_creep = rkpm->problem == PROBLEM_CREEP;
+    const bool is_elastic = rkpm->problem == PROBLEM_ELASTIC || is_creep, has_norms = !is_creep;
     const bool is_gauss = rkpm->integration == INTEGRATION_GAUSS;
     const bool has_beta = rkpm->constraint == CONSTRAINT_PENALTY || rkpm->constraint == CONSTRAINT_NITSCHE;
     const struct {
@@ -55,11 +56,18 @@ static void check_needs(struct reader *reader)
                 {"cons", "'prob helmholtz', 'prob poisson' or 'prob elastic'", is_solved},
                 {"gbou", "'inte gauss' and 'cons lagr', 'cons pena' or 'cons nits', or 'prob elastic'",
                  is_solved && is_gauss && (is_elastic || rkpm->constraint != CONSTRAINT_TRANSFORMATION)},
-                {"elas", "'prob elastic'", is_elastic},
-                {"plan", "'prob elastic' and 'dime 2'", is_elastic && rkpm->dimension == 2},
-                {"forc", "'func beam'", rkpm->function == FUNCTION_BEAM},
-                {"held", "'prob elastic'", is_elastic},
-                {"inte", "'prob elastic'", is_elastic},
+                {"modu", "'prob elastic' or 'prob creep'", is_elastic},
+                {"plan", "'prob elastic' or 'prob creep', and 'dime 2'", is_elastic && rkpm->dimension == 2},
+                {"forc", "'func beam' or 'func load'", rkpm->function == FUNCTION_BEAM || rkpm->function == FUNCTION_LOAD},
+                {"elem", "'prob creep'", is_creep},
+                {"rule", "'prob creep'", is_creep},
+                {"volu", "'prob creep'", is_creep},
+                {"time", "'prob creep'", is_creep},
+                {"from", "'prob creep'", is_creep},
+                {"refi", "one body after another; leave it out with 'prob creep'", has_norms},
+                {"gnor", "norms of an error, which 'prob creep' has not; leave it out", has_norms},
+                {"held", "'prob elastic' or 'prob creep'", is_elastic},
+                {"inte", "'prob elastic' or 'prob creep'", is_elastic},
                 {"vci", "'prob elastic'", is_elastic},
                 {"pert", "'prob approx' or 'prob elastic'", is_elastic || !is_solved},
                 {"beta", "'cons pena' or 'cons nits'", is_solved && has_beta},
@@ -91,16 +99,59 @@ static void check_dynamic_words(struct reader *reader)
 static void check_function(struct reader *reader)
 {
     const struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    const bool is_creep = rkpm->problem == PROBLEM_CREEP, is_load = rkpm->function == FUNCTION_LOAD;
     const bool is_elastic = rkpm->problem == PROBLEM_ELASTIC, is_displacement = rkpm->function == FUNCTION_PATCH || rkpm->function == FUNCTION_BEAM;
+    if (is_creep != is_load)
+        diagnostics_error(reader->diagnostics, place_of(reader, "func"), is_creep ? "'prob creep' needs a load; expected 'func load'"
+                                                                                  : "'func load' needs 'prob creep'");
+    if (is_creep || is_load)
+        return;
     if (is_elastic != is_displacement)
         diagnostics_error(reader->diagnostics, place_of(reader, "func"), is_elastic ? "'prob elastic' needs displacements; expected patch or beam"
                                                                                     : "patch and beam are displacements, which need 'prob elastic'");
     if (rkpm->function == FUNCTION_BEAM && rkpm->dimension != 2)
         diagnostics_error(reader->diagnostics, place_of(reader, "func"), "'func beam' needs 'dime 2'");
-    if (rkpm->function == FUNCTION_BEAM && !was_given(reader, "forc"))
-        diagnostics_error(reader->diagnostics, place_of(reader, "func"), "the load of the beam is not given; expected 'forc p'");
-    if (is_elastic && !was_given(reader, "elas"))
-        diagnostics_error(reader->diagnostics, place_of(reader, "prob"), "the moduli are not given; expected 'elas young poisson'");
+}
+
+/* Words that a problem or function can't do without. */
+static void check_needed(struct reader *reader)
+{
+    const struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    const bool is_creep = rkpm->problem == PROBLEM_CREEP, has_load = rkpm->function == FUNCTION_BEAM || rkpm->function == FUNCTION_LOAD;
+    const struct {
+        const char *name, *owner, *message;
+        bool is_needed;
+    } rows[] = {{"forc", "func", "the load is not given; expected 'forc p'", has_load},
+                {"modu", "prob", "the moduli are not given; expected 'modu young poisson'", is_creep || rkpm->problem == PROBLEM_ELASTIC},
+                {"elem", "prob", "without elements nothing relaxes; expected 'elem young time', or 'prob elastic'", is_creep},
+                {"time", "prob", "the end is not given; expected 'time end step'", is_creep},
+                {"from", "prob", "there is never a load; expected 'from time factor'", is_creep},
+                {"held", "prob", "the body is not held; expected 'held' and sides", is_creep}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        if (rows[i].is_needed && !was_given(reader, rows[i].name))
+            diagnostics_error(reader->diagnostics, place_of(reader, rows[i].owner), "%s", rows[i].message);
+}
+
+/* Loads follow each other, up to the end; the body has a side to bear them, and boundary terms do not relax. */
+static void check_creep(struct reader *reader)
+{
+    const struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    if (rkpm->problem != PROBLEM_CREEP)
+        return;
+    for (int i = 0; i < rkpm->n_loads; i++)
+        if (i > 0 && !(rkpm->loads[i][0] > rkpm->loads[i - 1][0]))
+            diagnostics_error(reader->diagnostics, rkpm->load_places[i], "the load changes at %g after it has at %g; expected the order of time",
+                              rkpm->loads[i][0], rkpm->loads[i - 1][0]);
+        else if (was_given(reader, "time") && rkpm->loads[i][0] > rkpm->end_time)
+            diagnostics_error(reader->diagnostics, rkpm->load_places[i], "the load changes at %g, after the end at %g", rkpm->loads[i][0], rkpm->end_time);
+    if (rkpm->constraint == CONSTRAINT_PENALTY || rkpm->constraint == CONSTRAINT_NITSCHE)
+        diagnostics_error(reader->diagnostics, place_of(reader, "cons"), "terms at the boundary don't relax; with 'prob creep' expected 'cons tran' or 'cons lagr'");
+    if (rkpm->held[1])
+        diagnostics_error(reader->diagnostics, place_of(reader, "held"), "the load is on side x1, which can't be held");
+    if (rkpm->dimension == 1)
+        diagnostics_error(reader->diagnostics, place_of(reader, "prob"), "'prob creep' needs 'dime 2' or 'dime 3'");
+    if (was_given(reader, "time") && rkpm->end_time / rkpm->time_step > MOST_STEPS)
+        diagnostics_error(reader->diagnostics, place_of(reader, "time"), "these are %g steps; expected at most %g", rkpm->end_time / rkpm->time_step, MOST_STEPS);
 }
 
 /* Nodal rules are linear; cells of nodes off the lattice are made in a plane. */
@@ -278,6 +329,8 @@ void reader_finish_rkpm(struct reader *reader)
         return;
     check_needs(reader);
     check_function(reader);
+    check_needed(reader);
+    check_creep(reader);
     check_integration(reader);
     check_held(reader);
     check_support(reader);
@@ -289,5 +342,5 @@ void reader_finish_rkpm(struct reader *reader)
     const long *last = rkpm->levels[rkpm->n_levels - 1];
     if (diagnostics_errors(reader->diagnostics) == 0)
         scene->n_particles = last[0] * last[1] * last[2];
-    scene->end_time = scene->output_interval = scene->report_interval = (double)rkpm->n_levels;
+    scene->end_time = scene->output_interval = scene->report_interval = rkpm->problem == PROBLEM_CREEP ? rkpm->end_time : (double)rkpm->n_levels;
 }

@@ -18,11 +18,11 @@ _Static_assert(sizeof(enum basis_form) == sizeof(int), "choices are stored as in
 static const char *const bases[] = {[BASIS_LINEAR] = "linear", [BASIS_BILINEAR] = "bilinear", [BASIS_QUADRATIC] = "quad", NULL};
 static const char *const gradients[] = {[GRADIENT_DIRECT] = "direct", [GRADIENT_IMPLICIT] = "implicit", NULL};
 static const char *const problems[] = {[PROBLEM_APPROXIMATION] = "approx", [PROBLEM_HELMHOLTZ] = "helmholtz",
-                                       [PROBLEM_POISSON] = "poisson", [PROBLEM_ELASTIC] = "elastic",
+                                       [PROBLEM_POISSON] = "poisson", [PROBLEM_ELASTIC] = "elastic", [PROBLEM_CREEP] = "creep",
                                        [PROBLEM_DYNAMIC] = "dynamic", NULL};
 static const char *const functions[] = {[FUNCTION_SINE] = "sine", [FUNCTION_EXPONENTIAL] = "expo",
                                         [FUNCTION_WAVE] = "wave", [FUNCTION_LINEAR] = "line", [FUNCTION_PATCH] = "patch",
-                                        [FUNCTION_BEAM] = "beam", NULL};
+                                        [FUNCTION_BEAM] = "beam", [FUNCTION_LOAD] = "load", NULL};
 static const char *const constraints[] = {[CONSTRAINT_TRANSFORMATION] = "tran", [CONSTRAINT_LAGRANGE] = "lagr",
                                           [CONSTRAINT_PENALTY] = "pena", [CONSTRAINT_NITSCHE] = "nits", NULL};
 
@@ -30,6 +30,7 @@ static const char *const integrations[] = {[INTEGRATION_GAUSS] = "gauss", [INTEG
                                            [INTEGRATION_NSNI] = "nsni", [INTEGRATION_SCNI] = "scni", [INTEGRATION_NSNI_SCNI] = "nsci",
                                            [INTEGRATION_MSCNI] = "mscni", NULL};
 static const char *const planes[] = {[PLANE_STRESS] = "stress", [PLANE_STRAIN] = "strain", NULL};
+static const char *const rules[] = {[MAXWELL_EXPONENTIAL] = "exponential", [MAXWELL_MIDPOINT] = "midpoint", NULL};
 static const char *const off_on[] = {"off", "on", NULL};
 
 /* Reads the next word as a number of `argument`; false after an error, or at the end of the line. */
@@ -109,6 +110,29 @@ static void read_held(struct reader *reader, const struct deck_word *word, const
         rkpm->held[side] = true;
 }
 
+static void add_element(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    if (rkpm->n_elements == RKPM_ELEMENTS) {
+        diagnostics_error(reader->diagnostics, word->place, "there are more than %d elements", RKPM_ELEMENTS);
+        return;
+    }
+    rkpm->elements[rkpm->n_elements][0] = values[0].real;
+    rkpm->elements[rkpm->n_elements++][1] = values[1].real;
+}
+
+static void add_load(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    if (rkpm->n_loads == RKPM_LOADS) {
+        diagnostics_error(reader->diagnostics, word->place, "the load changes more than %d times", RKPM_LOADS);
+        return;
+    }
+    rkpm->load_places[rkpm->n_loads] = values[0].word.place;
+    rkpm->loads[rkpm->n_loads][0] = values[0].real;
+    rkpm->loads[rkpm->n_loads++][1] = values[1].real;
+}
+
 static void read_beta(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     static const char *const names[] = {"/h", NULL};
@@ -134,21 +158,34 @@ const struct keyword rkpm_keywords[] = {
             "good ones"},
     {.name = "grad", .long_name = "gradient", .arguments = WORD("direct|implicit"), .choice = CHOICE(gradients, gradient),
      .doc = "gradients of shape functions: their own (direct, default), or those that reproduce gradients of the basis (implicit)"},
-    {.name = "prob", .long_name = "problem", .arguments = WORD("approx|helmholtz|poisson|elastic|dynamic"), .choice = CHOICE(problems, problem),
+    {.name = "prob", .long_name = "problem", .arguments = WORD("approx|helmholtz|poisson|elastic|creep|dynamic"), .choice = CHOICE(problems, problem),
      .doc = "the function itself, from its values at the nodes (approx); div grad u + k^2 u = f (helmholtz); div grad u = f (poisson): f and "
             "the values at the boundary are those of the function; displacements of an elastic body (elastic): those at held sides and the "
-            "tractions on the others are those of the function; a body that moves in time (dynamic): with mate, endt and curv. Words "
-            "that are of dynamic alone: mode, star, spin, grav, wall, stab"},
-    {.name = "func", .long_name = "function", .arguments = WORD("sine|expo|wave|line|patch|beam"), .choice = CHOICE(functions, function),
+            "tractions on the others are those of the function; those of a viscoelastic body in time (creep), under a load that changes by "
+            "steps; a body that moves in time (dynamic): with mate, endt and curv. Words that are of dynamic alone: mode, star, spin, grav, wall, "
+            "stab"},
+    {.name = "func", .long_name = "function", .arguments = WORD("sine|expo|wave|line|patch|beam|load"), .choice = CHOICE(functions, function),
      .doc = "exact solution: sin x sin y sin z (sine), exp(x y z) (expo), sin k(x1 - x)/sin k(x1 - x0) with the wave number and ends of the box "
             "(wave), 1 + x + 2 y + 3 z (line); y and z as far as there are dimensions. Of elastic: linear displacements (patch); in two "
-            "dimensions Timoshenko's cantilever (beam), held at the low end along x and loaded along y at the high one"},
-    {.name = "elas", .long_name = "elastic", .arguments = LIST(NUMBER("young", "stress", LIMIT_POSITIVE), NUMBER("poisson", NULL, LIMIT_POISSON)),
-     .field = FIELD(young), .doc = "Young's modulus and Poisson's ratio of elastic"},
+            "dimensions Timoshenko's cantilever (beam), held at the low end along x and loaded along y at the high one. Of creep: no "
+            "displacement at held sides, and a load on the high side along x (load)"},
+    {.name = "modu", .long_name = "moduli", .arguments = LIST(NUMBER("young", "stress", LIMIT_POSITIVE), NUMBER("poisson", NULL, LIMIT_POISSON)),
+     .field = FIELD(young), .doc = "Young's modulus and Poisson's ratio of elastic; of creep those at long times"},
+    {.name = "elem", .long_name = "element", .arguments = LIST(NUMBER("young", "stress", LIMIT_POSITIVE), NUMBER("time", "time", LIMIT_POSITIVE)),
+     .apply = add_element, .doc = "an element of creep: its Young's modulus, which comes on top, and its relaxation time; as many as there are, up to 8"},
+    {.name = "rule", .arguments = WORD("exponential|midpoint"), .choice = CHOICE(rules, rule),
+     .doc = "the rule of elements' steps in creep: exact where strains grow linearly (exponential, default), or the midpoint's, which needs "
+            "steps shorter than relaxation times"},
+    {.name = "volu", .long_name = "volume", .arguments = WORD("off|on"), .choice = &(const struct keyword_choice){off_on, FIELD(relaxes_volume), true},
+     .doc = "on: in creep pressure relaxes as well, else it stays that of all moduli together (off, default)"},
+    {.name = "time", .arguments = LIST(NUMBER("end", "time", LIMIT_POSITIVE), NUMBER("step", "time", LIMIT_POSITIVE)), .field = FIELD(end_time),
+     .doc = "creep goes on to an end, in steps of this length, or a little less where the load changes"},
+    {.name = "from", .arguments = LIST(NUMBER("time", "time", LIMIT_NOT_NEGATIVE), NUMBER("factor", NULL, LIMIT_NONE)), .apply = add_load,
+     .doc = "from this moment on the load of creep is that of `forc` times the factor: a jump, in a step of no length. In the order of time"},
     {.name = "plan", .long_name = "plane", .arguments = WORD("stress|strain"), .choice = CHOICE(planes, plane),
      .doc = "of elastic in two dimensions: no stress (stress, default) or no strain (strain) across the plane"},
     {.name = "forc", .long_name = "force", .arguments = LIST(NUMBER("p", "force/length", LIMIT_NONE)), .field = FIELD(beam_load),
-     .doc = "load of func beam along y at its end, per thickness"},
+     .doc = "load of func beam along y at its end, per thickness; of func load along the last axis on the high side along x, spread evenly"},
     {.name = "held", .apply = read_held,
      .doc = "`held x0 x1 y0 y1 z0 z1`: sides of the box where displacements of elastic are given, as many as there are; the others bear tractions. Without it all"},
     {.name = "pert", .long_name = "perturb", .arguments = LIST(NUMBER("s", "spacings", LIMIT_NOT_NEGATIVE), NUMBER("seed", NULL, LIMIT_NOT_NEGATIVE)),

@@ -16,6 +16,7 @@ static bool has_word(const struct scene_rkpm *rkpm, const char *name)
 {
     static const char *const dynamic[] = {"mode", "spin", "stab", NULL};
     const bool is_dynamic = rkpm->problem == PROBLEM_DYNAMIC, is_solved = rkpm->problem != PROBLEM_APPROXIMATION && !is_dynamic;
+    const bool is_creep = rkpm->problem == PROBLEM_CREEP, is_body = is_creep || rkpm->problem == PROBLEM_ELASTIC;
     const bool has_beta = rkpm->constraint == CONSTRAINT_PENALTY || rkpm->constraint == CONSTRAINT_NITSCHE;
     for (int i = 0; dynamic[i]; i++)
         if (strcmp(name, dynamic[i]) == 0)
@@ -33,11 +34,13 @@ static bool has_word(const struct scene_rkpm *rkpm, const char *name)
     if (strcmp(name, "wave") == 0)
         return rkpm->problem == PROBLEM_HELMHOLTZ || rkpm->function == FUNCTION_WAVE;
     if (strcmp(name, "plan") == 0)
-        return rkpm->problem == PROBLEM_ELASTIC && rkpm->dimension == 2;
-    if (strcmp(name, "elas") == 0 || strcmp(name, "inte") == 0 || strcmp(name, "vci") == 0)
-        return rkpm->problem == PROBLEM_ELASTIC;
+        return is_body && rkpm->dimension == 2;
+    if (strcmp(name, "modu") == 0 || strcmp(name, "inte") == 0 || strcmp(name, "vci") == 0)
+        return is_body;
+    if (strcmp(name, "rule") == 0 || strcmp(name, "volu") == 0 || strcmp(name, "time") == 0)
+        return is_creep;
     if (strcmp(name, "forc") == 0)
-        return rkpm->function == FUNCTION_BEAM;
+        return rkpm->function == FUNCTION_BEAM || rkpm->function == FUNCTION_LOAD;
     if (strcmp(name, "pert") == 0)
         return rkpm->jitter[0] > 0;
     if (strcmp(name, "gaus") == 0)
@@ -82,13 +85,21 @@ static void echo_dynamic(const struct scene_dynamic *dynamic, FILE *stream)
 static void echo_held(const struct scene_rkpm *rkpm, FILE *stream)
 {
     static const char *const sides[] = {"x0", "x1", "y0", "y1", "z0", "z1"};
-    if (rkpm->problem != PROBLEM_ELASTIC)
+    if (rkpm->problem != PROBLEM_ELASTIC && rkpm->problem != PROBLEM_CREEP)
         return;
     fprintf(stream, "  held");
     for (int side = 0; side < 6; side++)
         if (rkpm->held[side])
             fprintf(stream, " %s", sides[side]);
     fputc('\n', stream);
+}
+
+static void echo_pairs(const char *word, const double (*pairs)[2], int count, FILE *stream)
+{
+    for (int i = 0; i < count; i++) {
+        print_numbers(stream, word, pairs[i], 2);
+        fputc('\n', stream);
+    }
 }
 
 void echo_rkpm(const struct scene *scene, FILE *stream)
@@ -99,6 +110,8 @@ void echo_rkpm(const struct scene *scene, FILE *stream)
         if ((row->choice || row->field != KEYWORD_NO_FIELD) && has_word(rkpm, row->name))
             echo_word(scene, row, stream);
     echo_held(rkpm, stream);
+    echo_pairs("elem", rkpm->elements, rkpm->n_elements, stream);
+    echo_pairs("from", rkpm->loads, rkpm->n_loads, stream);
     print_numbers(stream, "supp", rkpm->support, rkpm->n_support);
     fputc('\n', stream);
     if (rkpm->problem == PROBLEM_DYNAMIC) {

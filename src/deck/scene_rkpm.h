@@ -5,6 +5,7 @@
 
 #include "deck/scene_dynamic.h"
 #include "deck/text.h"
+#include "material/maxwell.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -23,17 +24,18 @@ enum integration_form {
     INTEGRATION_NSNI_SCNI,
     INTEGRATION_MSCNI
 };
-enum rkpm_problem { PROBLEM_APPROXIMATION, PROBLEM_HELMHOLTZ, PROBLEM_POISSON, PROBLEM_ELASTIC, PROBLEM_DYNAMIC };
+enum rkpm_problem { PROBLEM_APPROXIMATION, PROBLEM_HELMHOLTZ, PROBLEM_POISSON, PROBLEM_ELASTIC, PROBLEM_CREEP, PROBLEM_DYNAMIC };
 enum plane_mode { PLANE_STRESS, PLANE_STRAIN };
 
 /* Exact solutions: product of sines, exponential of the product of coordinates, sine wave that is 1 at the low end and 0 at
- * the high one, linear function; displacements that are linear, and those of Timoshenko's cantilever. */
-enum rkpm_function { FUNCTION_SINE, FUNCTION_EXPONENTIAL, FUNCTION_WAVE, FUNCTION_LINEAR, FUNCTION_PATCH, FUNCTION_BEAM };
+ * the high one, linear function; displacements that are linear, and those of Timoshenko's cantilever; no solution, but a load on
+ * the high side along x. */
+enum rkpm_function { FUNCTION_SINE, FUNCTION_EXPONENTIAL, FUNCTION_WAVE, FUNCTION_LINEAR, FUNCTION_PATCH, FUNCTION_BEAM, FUNCTION_LOAD };
 
 /* How values at the boundary are prescribed. */
 enum constraint_form { CONSTRAINT_TRANSFORMATION, CONSTRAINT_LAGRANGE, CONSTRAINT_PENALTY, CONSTRAINT_NITSCHE };
 
-enum { RKPM_BOX = 9 }; /* numbers of `node box` in three dimensions */
+enum { RKPM_BOX = 9, RKPM_ELEMENTS = 8, RKPM_LOADS = 32 }; /* numbers of `node box` in three dimensions; most elements, load steps */
 
 struct scene_rkpm {
     long dimension;
@@ -65,6 +67,14 @@ struct scene_rkpm {
     enum plane_mode plane;
     double beam_load;     /* of func beam, along y at its free end */
     bool held[6];         /* sides where displacements are given: low and high of each axis */
+    double elements[RKPM_ELEMENTS][2]; /* of creep: Young's modulus and relaxation time */
+    int n_elements;
+    enum maxwell_rule rule;
+    bool relaxes_volume;
+    double end_time, time_step; /* consecutive */
+    double loads[RKPM_LOADS][2]; /* from when on the load is multiplied by how much */
+    struct deck_place load_places[RKPM_LOADS];
+    int n_loads;
     double jitter[2];     /* random moves of inner nodes, in spacings; the seed */
     struct deck_place place; /* of the word rkpm */
 };

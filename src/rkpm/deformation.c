@@ -3,10 +3,11 @@
 
 #include <string.h>
 
-/* One row a function; NULL: it is no displacement. */
+/* One row a function: with the gradient, from which tractions follow, or with tractions. */
 struct deformation_row {
     void (*value)(const struct deformation *deformation, const double x[3], double u[3]);
     void (*gradient)(const struct deformation *deformation, const double x[3], double gradient[3][3]);
+    void (*traction)(const struct deformation *deformation, const double x[3], int axis, int side, double traction[3]);
 };
 
 /* --- patch: linear, with all strains and a rotation --- */
@@ -64,9 +65,29 @@ static void beam_slope(const struct deformation *deformation, const double x[3],
     gradient[1][1] = 6 * factor * nu * b.y * (b.length - b.x);
 }
 
+/* --- load: none but at the end --- */
+
+static void rest(const struct deformation *deformation, const double x[3], double u[3])
+{
+    (void)deformation;
+    (void)x;
+    (void)u;
+}
+
+static void end_load(const struct deformation *deformation, const double x[3], int axis, int side, double traction[3])
+{
+    double area = 1;
+    (void)x;
+    for (int a = 1; a < deformation->dimension; a++)
+        area *= deformation->high[a] - deformation->low[a];
+    if (axis == 0 && side > 0)
+        traction[deformation->dimension - 1] = deformation->load / area;
+}
+
 static const struct deformation_row rows[] = {
-    [FUNCTION_PATCH] = {patch, patch_slope},
-    [FUNCTION_BEAM] = {beam, beam_slope},
+    [FUNCTION_LOAD] = {rest, NULL, end_load},
+    [FUNCTION_PATCH] = {patch, patch_slope, NULL},
+    [FUNCTION_BEAM] = {beam, beam_slope, NULL},
 };
 
 struct deformation deformation_of(const struct scene_rkpm *words)
@@ -106,4 +127,18 @@ void deformation_stress(int dimension, struct moduli moduli, double gradient[3][
     for (int a = 0; a < dimension; a++)
         for (int b = 0; b < dimension; b++)
             stress[a][b] = (a == b ? moduli.lambda * trace : 0) + moduli.mu * (gradient[a][b] + gradient[b][a]);
+}
+
+void deformation_traction(const struct deformation *deformation, const double x[3], int axis, int side, double traction[3])
+{
+    double gradient[3][3], stress[3][3];
+    memset(traction, 0, 3 * sizeof *traction);
+    if (rows[deformation->function].traction) {
+        rows[deformation->function].traction(deformation, x, axis, side, traction);
+        return;
+    }
+    deformation_gradient(deformation, x, gradient);
+    deformation_stress(deformation->dimension, deformation->moduli, gradient, stress);
+    for (int a = 0; a < deformation->dimension; a++)
+        traction[a] = side * stress[a][axis];
 }

@@ -11,7 +11,7 @@ struct deformation {
     int dimension;
     double low[3], high[3];  /* of the body */
     double young, poisson;   /* of plane stress, also where the mode is plane strain: E/(1 - nu^2), nu/(1 - nu) */
-    double load;             /* of the beam: along y at its end, per thickness */
+    double load;             /* of the beam: along y at its end, per thickness; else along the last axis on the high side along x */
     struct moduli moduli;
 };
 
@@ -21,6 +21,9 @@ struct deformation deformation_of(const struct scene_rkpm *words);
  * dimension are zero. */
 void deformation_value(const struct deformation *deformation, const double x[3], double u[3]);
 void deformation_gradient(const struct deformation *deformation, const double x[3], double gradient[3][3]);
+/* The traction at a point of a face of the box, whose outer normal is that side of an axis. */
+void deformation_traction(const struct deformation *deformation, const double x[3], int axis, int side, double traction[3]);
+
 void deformation_stress(int dimension, struct moduli moduli, double gradient[3][3], double stress[3][3]);
 
 #endif

@@ -21,12 +21,11 @@ static void give_faces(struct rkpm *rkpm, struct body *body)
     const int d = body->dimension;
     for (size_t i = 0; i < faces->count; i++) {
         const double x[3] = {faces->x[0][i], faces->x[1][i], faces->x[2][i]};
-        double u[3], gradient[3][3], stress[3][3];
+        double u[3], traction[3];
         deformation_value(&rkpm->deformation, x, u);
-        deformation_gradient(&rkpm->deformation, x, gradient);
-        deformation_stress(d, rkpm->deformation.moduli, gradient, stress);
+        deformation_traction(&rkpm->deformation, x, faces->axis[i], faces->side[i], traction);
         for (int a = 0; a < d; a++)
-            body->given[i * (size_t)d + (size_t)a] = body->is_held[i] ? u[a] : faces->side[i] * stress[a][faces->axis[i]];
+            body->given[i * (size_t)d + (size_t)a] = body->is_held[i] ? u[a] : traction[a];
     }
 }
 
@@ -43,10 +42,13 @@ void rkpm_elastic_open(struct rkpm *rkpm, struct rkpm_level *level)
     const struct scene_rkpm *words = rkpm->words;
     struct body *body = &level->body;
     body_open(body, words, &level->box, level->count, level->x, &level->shape, rkpm->gauss, rkpm->boundary_gauss, level->beta * words->young);
-    solver_open(&level->solver, body);
+    if (words->problem == PROBLEM_ELASTIC)
+        solver_open(&level->solver, body, SOLVER_MOST_WORK);
     level->shape.enlarged += body->inside.enlarged + body->faces.enlarged;
     level->shape.lowered += body->inside.lowered + body->faces.lowered;
     give_faces(rkpm, body);
+    if (words->problem == PROBLEM_CREEP)
+        creep_open(&rkpm->creep, words, body);
 }
 
 void rkpm_elastic_close(struct rkpm_level *level)
@@ -57,14 +59,33 @@ void rkpm_elastic_close(struct rkpm_level *level)
 
 /* --- the solution --- */
 
+/* Whether linear functions could be kept everywhere; else the problem ends. */
+static bool has_neighbours(struct rkpm *rkpm, const struct body *body)
+{
+    if (body->inside.lowered == 0 && body->faces.lowered == 0)
+        return true;
+    stop_at(rkpm, body->inside.lowered > 0 ? body->inside.bad : body->faces.bad);
+    return false;
+}
+
+static void stop_unsolved(struct rkpm *rkpm, const struct solver *solver)
+{
+    static const char *const causes[] = {[SOLVER_ENVELOPE] = "not positive: the boundary is held too weakly, or to rounding error",
+                                         [SOLVER_BANDED] = "singular",
+                                         [SOLVER_CONJUGATE] = "not solved by conjugate gradients: it is not positive, or nearly singular"};
+    struct instability *instability = &rkpm->instability;
+    *instability = (struct instability){.is_stopped = true, .particle = -1};
+    snprintf(instability->cause, sizeof instability->cause, "the linear system is %s", causes[solver->kind]);
+    snprintf(instability->advice, sizeof instability->advice, "%s",
+             solver->kind == SOLVER_BANDED ? "take cons nits, or a larger supp" : "take another beta, as 100 /h, or more held sides");
+}
+
 void rkpm_elastic_solve(struct rkpm *rkpm, struct rkpm_level *level)
 {
     struct body *body = &level->body;
     const size_t d = (size_t)body->dimension;
-    if (body->inside.lowered > 0 || body->faces.lowered > 0) {
-        stop_at(rkpm, body->inside.lowered > 0 ? body->inside.bad : body->faces.bad);
+    if (!has_neighbours(rkpm, body))
         return;
-    }
     double *right = memory_array(body->nodes * d, sizeof(double), "the linear system");
     double *given = memory_array((size_t)body->held.rows * d, sizeof(double), "the linear system");
     body_assemble(body, rkpm->deformation.moduli);
@@ -73,16 +94,10 @@ void rkpm_elastic_solve(struct rkpm *rkpm, struct rkpm_level *level)
         held_give_nodes(&body->held, body->x, body->dimension, displacement, &rkpm->deformation, given);
     else if (body->constraint == CONSTRAINT_LAGRANGE)
         held_give_hats(&body->held, body->box, &body->faces, body->is_held, displacement, &rkpm->deformation, given);
-    if (solver_factor(&level->solver)) {
-        solver_solve(&level->solver, right, given, right);
+    if (solver_factor(&level->solver) && solver_solve(&level->solver, right, given, right))
         body_by_nodes(body, right, level->coefficient);
-    } else {
-        struct instability *instability = &rkpm->instability;
-        *instability = (struct instability){.is_stopped = true, .particle = -1};
-        snprintf(instability->cause, sizeof instability->cause, "the linear system is %s",
-                 level->solver.kind == SOLVER_BANDED ? "singular" : "not positive: the boundary is held too weakly, or to rounding error");
-        snprintf(instability->advice, sizeof instability->advice, "%s", level->solver.kind == SOLVER_BANDED ? "take cons nits, or a larger supp" : "take another beta, as 100 /h");
-    }
+    else
+        stop_unsolved(rkpm, &level->solver);
     memory_free(right);
     memory_free(given);
 }
@@ -144,7 +159,7 @@ static void add_errors(void *context, const struct quadrature_point *point)
     errors->energy += point->weight * work(d, stress, gradient);
 }
 
-/* The last component of the displacement in the middle of the high face along x, over the exact one. */
+/* The last component of the displacement in the middle of the high face along x; over the exact one, where there is one. */
 static double tip_of(struct rkpm *rkpm, struct rkpm_level *level)
 {
     const struct deformation *deformation = &rkpm->deformation;
@@ -154,6 +169,8 @@ static double tip_of(struct rkpm *rkpm, struct rkpm_level *level)
         x[a] = 0.5 * (deformation->low[a] + deformation->high[a]);
     find_displacement(rkpm, level, x, u, NULL);
     deformation_value(deformation, x, exact);
+    if (rkpm->words->problem == PROBLEM_CREEP)
+        return u[last];
     return exact[last] != 0 ? u[last] / exact[last] : 0;
 }
 
@@ -188,4 +205,21 @@ void rkpm_elastic_show(struct rkpm *rkpm, struct rkpm_level *level)
         store->real[COLUMN_EXACT][0][n] = exact[d - 1];
         store->real[COLUMN_COEFFICIENT][0][n] = level->coefficient[n * d + d - 1];
     }
+}
+
+void rkpm_elastic_step(struct rkpm *rkpm, struct rkpm_level *level)
+{
+    struct creep *creep = &rkpm->creep;
+    const struct creep_step *step = &creep->steps[creep->next];
+    if (!has_neighbours(rkpm, &level->body))
+        return;
+    if (!creep_advance(creep)) {
+        stop_unsolved(rkpm, &creep->solver[step->length == 0]);
+        return;
+    }
+    body_by_nodes(&level->body, creep->coefficient, level->coefficient);
+    rkpm->time = step->time;
+    rkpm->load = step->load;
+    rkpm->tip = tip_of(rkpm, level);
+    rkpm_elastic_show(rkpm, level);
 }

@@ -63,8 +63,8 @@ static void open_level(struct rkpm *rkpm, struct rkpm_level *level, const long n
     }
     level->beta = words->beta_over_spacing ? words->beta / smallest : words->beta;
     rkpm_shape_open(&level->shape, level->box.dimension, words->basis, level->count, level->x, radius);
-    level->coefficient = memory_array(level->count * (words->problem == PROBLEM_ELASTIC ? (size_t)words->dimension : 1), sizeof(double), "coefficients");
-    if (words->problem == PROBLEM_ELASTIC) {
+    level->coefficient = memory_array(level->count * (rkpm_has_body(rkpm) ? (size_t)words->dimension : 1), sizeof(double), "coefficients");
+    if (rkpm_has_body(rkpm)) {
         rkpm_elastic_open(rkpm, level);
         return;
     }
@@ -88,7 +88,7 @@ static void create_store(struct rkpm *rkpm)
         store->integer[COLUMN_ID][i] = store->index_of_id[i] = (int32_t)i;
         for (int a = 0; a < 3; a++)
             store->real[COLUMN_POSITION][a][i] = store->real[COLUMN_INITIAL_POSITION][a][i] = x[a];
-        if (rkpm->words->problem != PROBLEM_ELASTIC)
+        if (!rkpm_has_body(rkpm))
             store->real[COLUMN_EXACT][0][i] = field_value(&rkpm->field, x);
     }
 }
@@ -108,7 +108,7 @@ struct rkpm *rkpm_open(const struct scene *scene, struct timers *timers)
     rkpm->words = words;
     rkpm->timers = timers;
     rkpm->field = (struct field){words->function, (int)words->dimension, words->wave_number, {words->box[0], words->box[1]}};
-    if (words->problem == PROBLEM_ELASTIC)
+    if (rkpm_has_body(rkpm))
         rkpm->deformation = deformation_of(words);
     rkpm->gauss = or_default(words->gauss, words->basis == BASIS_QUADRATIC ? 5 : 2);
     rkpm->boundary_gauss = or_default(words->boundary_gauss, 2);
@@ -139,6 +139,7 @@ void rkpm_close(struct rkpm *rkpm)
         return;
     for (size_t i = 0; i < rkpm->n_levels; i++)
         close_level(&rkpm->levels[i]);
+    creep_close(&rkpm->creep);
     memory_free(rkpm->levels);
     store_close(rkpm->store);
     memory_free(rkpm);

@@ -9,6 +9,7 @@
 #include "base/instability.h"
 #include "base/timers.h"
 #include "deck/scene.h"
+#include "rkpm/creep.h"
 #include "rkpm/deformation.h"
 #include "rkpm/field.h"
 #include "rkpm/quadrature.h"
@@ -62,7 +63,9 @@ struct rkpm {
     int gauss, boundary_gauss, norm_gauss; /* points per axis */
     struct rkpm_level *levels;
     size_t n_levels;
-    long step;               /* levels that are done */
+    struct creep creep;      /* of problems in time, on one level */
+    double time, load, tip;  /* of their last step: the load's factor, the displacement along the last axis, as rkpm_result.tip */
+    long step;               /* levels or steps that are done */
     double updates;          /* nodes of them */
     struct instability instability;
 };
@@ -95,6 +98,13 @@ void rkpm_elastic_close(struct rkpm_level *level);
 void rkpm_elastic_solve(struct rkpm *rkpm, struct rkpm_level *level);
 void rkpm_elastic_measure(struct rkpm *rkpm, struct rkpm_level *level);
 void rkpm_elastic_show(struct rkpm *rkpm, struct rkpm_level *level);
+
+/* The next step of a problem in time. */
+void rkpm_elastic_step(struct rkpm *rkpm, struct rkpm_level *level);
+
+/* Whether displacements are looked for; whether there is a level or step to come. */
+bool rkpm_has_body(const struct rkpm *rkpm);
+bool rkpm_goes_on(const struct rkpm *rkpm);
 
 /* Norms of the error of a level. */
 void rkpm_measure(struct rkpm *rkpm, struct rkpm_level *level);

@@ -43,7 +43,18 @@ static void find_first(const struct solver *solver, int32_t *first)
     }
 }
 
-void solver_open(struct solver *solver, const struct body *body)
+/* Elimination with row exchanges takes four times as much as that of half of the matrix. */
+static enum solver_kind choose_kind(const struct solver *solver, double most_work)
+{
+    const struct body *body = solver->body;
+    const double work = (double)solver->count * solver->width * solver->width;
+    const bool is_half = body->is_symmetric && body->held.rows == 0;
+    if (body->is_symmetric && body->constraint != CONSTRAINT_LAGRANGE && work * (is_half ? 1 : 4) > most_work)
+        return SOLVER_CONJUGATE;
+    return is_half ? SOLVER_ENVELOPE : SOLVER_BANDED;
+}
+
+void solver_open(struct solver *solver, const struct body *body, double most_work)
 {
     *solver = (struct solver){.body = body};
     solver->of_row = memory_array(body->nodes, sizeof *solver->of_row, "the linear system");
@@ -53,9 +64,14 @@ void solver_open(struct solver *solver, const struct body *body)
     find_first(solver, solver->first);
     for (int32_t i = 0; i < solver->count; i++)
         solver->width = i - solver->first[i] > solver->width ? i - solver->first[i] : solver->width;
-    solver->kind = body->is_symmetric && body->held.rows == 0 ? SOLVER_ENVELOPE : SOLVER_BANDED;
+    solver->kind = choose_kind(solver, most_work);
     solver->unknown = memory_array((size_t)solver->count, sizeof(double), "the linear system");
     solver->bytes = (double)solver->count * sizeof(double) * (solver->kind == SOLVER_ENVELOPE ? solver->width + 1.0 : 3.0 * solver->width + 1);
+    if (solver->kind != SOLVER_CONJUGATE)
+        return;
+    solver->count = (int32_t)body->nodes * body->dimension;
+    solver->bytes = (double)body->matrix.first[body->nodes] * body->dimension * body->dimension * sizeof(double);
+    iteration_open(&solver->iteration, body);
 }
 
 void solver_close(struct solver *solver)
@@ -66,6 +82,7 @@ void solver_close(struct solver *solver)
     memory_free(solver->unknown);
     envelope_close(&solver->envelope);
     banded_close(&solver->banded);
+    iteration_close(&solver->iteration);
 }
 
 /* --- the matrix --- */
@@ -117,6 +134,8 @@ static double largest_of(const struct sparse *matrix)
 
 bool solver_factor(struct solver *solver)
 {
+    if (solver->kind == SOLVER_CONJUGATE)
+        return iteration_factor(&solver->iteration);
     if (solver->kind == SOLVER_BANDED) {
         solver->scale = largest_of(&solver->body->matrix);
         fill_banded(solver);
@@ -132,10 +151,12 @@ bool solver_factor(struct solver *solver)
 
 /* --- solutions --- */
 
-void solver_solve(struct solver *solver, const double *right, const double *given, double *coefficients)
+bool solver_solve(struct solver *solver, const double *right, const double *given, double *coefficients)
 {
     const struct body *body = solver->body;
     const int d = body->dimension;
+    if (solver->kind == SOLVER_CONJUGATE)
+        return iteration_solve(&solver->iteration, right, given, coefficients);
     for (size_t row = 0; row < body->nodes; row++)
         memcpy(solver->unknown + solver->of_row[row], right + row * (size_t)d, (size_t)d * sizeof(double));
     for (int32_t row = 0; row < body->held.rows; row++)
@@ -147,4 +168,5 @@ void solver_solve(struct solver *solver, const double *right, const double *give
         banded_solve(&solver->banded, solver->unknown);
     for (size_t row = 0; row < body->nodes; row++)
         memcpy(coefficients + row * (size_t)d, solver->unknown + solver->of_row[row], (size_t)d * sizeof(double));
+    return true;
 }

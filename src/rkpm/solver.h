@@ -5,7 +5,7 @@
 
 #include "base/banded.h"
 #include "base/envelope.h"
-#include "rkpm/body.h"
+#include "rkpm/iteration.h"
 
 enum solver_kind { SOLVER_ENVELOPE, SOLVER_BANDED, SOLVER_CONJUGATE };
 
@@ -19,18 +19,24 @@ struct solver {
     double scale;        /* of held rows */
     struct envelope envelope;
     struct banded banded;
+    struct iteration iteration;
     double *unknown;
     double bytes;
 };
 
+/* Multiplications that a direct solution may take; conjugate gradients, which need a symmetric matrix and no multipliers of
+ * hats, take over above. */
+static const double SOLVER_MOST_WORK = 2e9;
+
 /* Makes room for systems of a body. */
-void solver_open(struct solver *solver, const struct body *body);
+void solver_open(struct solver *solver, const struct body *body, double most_work);
 void solver_close(struct solver *solver);
 
 /* Takes the body's matrix; false where it is singular, or not positive where it should be. */
 bool solver_factor(struct solver *solver);
 
-/* Coefficients by rows of the matrix from a right side; `given` are the held rows, D numbers each. */
-void solver_solve(struct solver *solver, const double *right, const double *given, double *coefficients);
+/* Coefficients by rows of the matrix from a right side; `given` are the held rows, D numbers each. False where an iteration
+ * does not end; `right` and `coefficients` may be the same. */
+bool solver_solve(struct solver *solver, const double *right, const double *given, double *coefficients);
 
 #endif

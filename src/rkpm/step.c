@@ -40,20 +40,43 @@ static void show(struct rkpm *rkpm, struct rkpm_level *level)
     }
 }
 
+bool rkpm_has_body(const struct rkpm *rkpm)
+{
+    return rkpm->words->problem == PROBLEM_ELASTIC || rkpm->words->problem == PROBLEM_CREEP;
+}
+
+bool rkpm_goes_on(const struct rkpm *rkpm)
+{
+    return rkpm->words->problem == PROBLEM_CREEP ? rkpm->creep.next < rkpm->creep.n_steps : (size_t)rkpm->step < rkpm->n_levels;
+}
+
+/* A step in time. */
+static struct instability advance_time(struct rkpm *rkpm)
+{
+    timers_enter(rkpm->timers, PHASE_SYSTEM);
+    rkpm_elastic_step(rkpm, rkpm->levels);
+    rkpm->step++;
+    rkpm->updates += (double)rkpm->levels->count;
+    timers_enter(rkpm->timers, PHASE_OTHER);
+    return rkpm->instability;
+}
+
 struct instability rkpm_advance(struct rkpm *rkpm)
 {
+    if (rkpm->words->problem == PROBLEM_CREEP)
+        return advance_time(rkpm);
     struct rkpm_level *level = &rkpm->levels[rkpm->step++];
     timers_enter(rkpm->timers, PHASE_SYSTEM);
     if (rkpm->words->problem == PROBLEM_APPROXIMATION)
         approximate(rkpm, level);
-    else if (rkpm->words->problem == PROBLEM_ELASTIC)
+    else if (rkpm_has_body(rkpm))
         rkpm_elastic_solve(rkpm, level);
     else
         rkpm_system_solve(rkpm, level);
     timers_enter(rkpm->timers, PHASE_SUMS);
     rkpm_measure(rkpm, level);
     if ((size_t)rkpm->step == rkpm->n_levels)
-        rkpm->words->problem == PROBLEM_ELASTIC ? rkpm_elastic_show(rkpm, level) : show(rkpm, level);
+        rkpm_has_body(rkpm) ? rkpm_elastic_show(rkpm, level) : show(rkpm, level);
     rkpm->updates += (double)level->count;
     if (!rkpm->instability.is_stopped && !isfinite(level->result.h1)) {
         rkpm->instability = (struct instability){.is_stopped = true, .particle = -1, .cause = "the solution is not finite",
@@ -67,9 +90,12 @@ void rkpm_exchange(struct rkpm *rkpm, struct checkpoint *checkpoint)
 {
     checkpoint_item(checkpoint, "step", &rkpm->step, sizeof rkpm->step, 1);
     checkpoint_item(checkpoint, "updates", &rkpm->updates, sizeof rkpm->updates, 1);
-    if (checkpoint_is_reading(checkpoint) && checkpoint_is_good(checkpoint) && (rkpm->step < 0 || (size_t)rkpm->step > rkpm->n_levels))
+    if (checkpoint_is_reading(checkpoint) && checkpoint_is_good(checkpoint) && (rkpm->step < 0 || rkpm->step > (long)(rkpm->n_levels + rkpm->creep.n_steps)))
         checkpoint_reject(checkpoint, "step");
     for (size_t i = 0; i < rkpm->n_levels; i++)
         checkpoint_item(checkpoint, "result", &rkpm->levels[i].result, sizeof rkpm->levels[i].result, 1);
+    if (rkpm->creep.body)
+        creep_exchange(&rkpm->creep, checkpoint);
+    checkpoint_item(checkpoint, "time", &rkpm->time, sizeof rkpm->time, 1);
     store_exchange(rkpm->store, checkpoint, 1);
 }
