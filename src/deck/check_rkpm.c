@@ -61,14 +61,14 @@ static void check_needs(struct reader *reader)
                 {"forc", "'func beam' or 'func load'", rkpm->function == FUNCTION_BEAM || rkpm->function == FUNCTION_LOAD},
                 {"elem", "'prob creep'", is_creep},
                 {"rule", "'prob creep'", is_creep},
-                {"volu", "'prob creep'", is_creep},
-                {"time", "'prob creep'", is_creep},
+                {"vrel", "'prob creep'", is_creep},
+                {"span", "'prob creep'", is_creep},
                 {"from", "'prob creep'", is_creep},
                 {"refi", "one body after another; leave it out with 'prob creep'", has_norms},
                 {"gnor", "norms of an error, which 'prob creep' has not; leave it out", has_norms},
                 {"held", "'prob elastic' or 'prob creep'", is_elastic},
                 {"inte", "'prob elastic' or 'prob creep'", is_elastic},
-                {"vci", "'prob elastic'", is_elastic},
+                {"vci", "'prob elastic'", is_elastic && !is_creep},
                 {"pert", "'prob approx' or 'prob elastic'", is_elastic || !is_solved},
                 {"beta", "'cons pena' or 'cons nits'", is_solved && has_beta},
                 {"wave", "'prob helmholtz' or 'func wave'", rkpm->problem == PROBLEM_HELMHOLTZ || rkpm->function == FUNCTION_WAVE}};
@@ -124,7 +124,7 @@ static void check_needed(struct reader *reader)
     } rows[] = {{"forc", "func", "the load is not given; expected 'forc p'", has_load},
                 {"modu", "prob", "the moduli are not given; expected 'modu young poisson'", is_creep || rkpm->problem == PROBLEM_ELASTIC},
                 {"elem", "prob", "without elements nothing relaxes; expected 'elem young time', or 'prob elastic'", is_creep},
-                {"time", "prob", "the end is not given; expected 'time end step'", is_creep},
+                {"span", "prob", "the end is not given; expected 'span end step'", is_creep},
                 {"from", "prob", "there is never a load; expected 'from time factor'", is_creep},
                 {"held", "prob", "the body is not held; expected 'held' and sides", is_creep}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
@@ -142,7 +142,7 @@ static void check_creep(struct reader *reader)
         if (i > 0 && !(rkpm->loads[i][0] > rkpm->loads[i - 1][0]))
             diagnostics_error(reader->diagnostics, rkpm->load_places[i], "the load changes at %g after it has at %g; expected the order of time",
                               rkpm->loads[i][0], rkpm->loads[i - 1][0]);
-        else if (was_given(reader, "time") && rkpm->loads[i][0] > rkpm->end_time)
+        else if (was_given(reader, "span") && rkpm->loads[i][0] > rkpm->end_time)
             diagnostics_error(reader->diagnostics, rkpm->load_places[i], "the load changes at %g, after the end at %g", rkpm->loads[i][0], rkpm->end_time);
     if (rkpm->constraint == CONSTRAINT_PENALTY || rkpm->constraint == CONSTRAINT_NITSCHE)
         diagnostics_error(reader->diagnostics, place_of(reader, "cons"), "terms at the boundary don't relax; with 'prob creep' expected 'cons tran' or 'cons lagr'");
@@ -150,8 +150,8 @@ static void check_creep(struct reader *reader)
         diagnostics_error(reader->diagnostics, place_of(reader, "held"), "the load is on side x1, which can't be held");
     if (rkpm->dimension == 1)
         diagnostics_error(reader->diagnostics, place_of(reader, "prob"), "'prob creep' needs 'dime 2' or 'dime 3'");
-    if (was_given(reader, "time") && rkpm->end_time / rkpm->time_step > MOST_STEPS)
-        diagnostics_error(reader->diagnostics, place_of(reader, "time"), "these are %g steps; expected at most %g", rkpm->end_time / rkpm->time_step, MOST_STEPS);
+    if (was_given(reader, "span") && rkpm->end_time / rkpm->time_step > MOST_STEPS)
+        diagnostics_error(reader->diagnostics, place_of(reader, "span"), "these are %g steps; expected at most %g", rkpm->end_time / rkpm->time_step, MOST_STEPS);
 }
 
 /* Nodal rules are linear; cells of nodes off the lattice are made in a plane. */
@@ -287,10 +287,15 @@ static void check_support(struct reader *reader)
 static void check_wave(struct reader *reader)
 {
     const struct scene_rkpm *rkpm = &reader->scene->rkpm;
-    const double turns = rkpm->wave_number * (rkpm->box[1] - rkpm->box[0]);
-    if (rkpm->function == FUNCTION_WAVE && was_given(reader, "wave") && !(fabs(sin(turns)) > 1e-9))
-        diagnostics_error(reader->diagnostics, place_of(reader, "wave"), 
+    for (size_t i = 0; i < rkpm->n_levels && rkpm->function == FUNCTION_WAVE && was_given(reader, "wave"); i++) {
+        const double length = rkpm->box[1] - rkpm->box[0], cells = fmax((double)(rkpm->levels[i][0] - 1), 1);
+        const double turns = rkpm->wave_number * (rkpm->wave_over_spacing ? cells : length);
+        if (fabs(sin(turns)) > 1e-9)
+            continue;
+        diagnostics_error(reader->diagnostics, place_of(reader, "wave"),
                           "%g half waves fit between the ends of the box: none is 1 at one end and 0 at the other", turns / acos(-1));
+        break;
+    }
 }
 
 static void check_beta(struct reader *reader)

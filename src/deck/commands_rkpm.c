@@ -133,6 +133,15 @@ static void add_load(struct reader *reader, const struct deck_word *word, const 
     rkpm->loads[rkpm->n_loads++][1] = values[1].real;
 }
 
+/* A wave number that follows the spacing makes each level another problem: no order can be measured. */
+static void read_wave(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    static const char *const names[] = {"/h", NULL};
+    (void)word;
+    (void)values;
+    reader->scene->rkpm.wave_over_spacing = reader_optional(reader, names) == 0;
+}
+
 static void read_beta(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     static const char *const names[] = {"/h", NULL};
@@ -176,9 +185,9 @@ const struct keyword rkpm_keywords[] = {
     {.name = "rule", .arguments = WORD("exponential|midpoint"), .choice = CHOICE(rules, rule),
      .doc = "the rule of elements' steps in creep: exact where strains grow linearly (exponential, default), or the midpoint's, which needs "
             "steps shorter than relaxation times"},
-    {.name = "volu", .long_name = "volume", .arguments = WORD("off|on"), .choice = &(const struct keyword_choice){off_on, FIELD(relaxes_volume), true},
+    {.name = "vrel", .long_name = "vrelaxation", .arguments = WORD("off|on"), .choice = &(const struct keyword_choice){off_on, FIELD(relaxes_volume), true},
      .doc = "on: in creep pressure relaxes as well, else it stays that of all moduli together (off, default)"},
-    {.name = "time", .arguments = LIST(NUMBER("end", "time", LIMIT_POSITIVE), NUMBER("step", "time", LIMIT_POSITIVE)), .field = FIELD(end_time),
+    {.name = "span", .arguments = LIST(NUMBER("end", "time", LIMIT_POSITIVE), NUMBER("step", "time", LIMIT_POSITIVE)), .field = FIELD(end_time),
      .doc = "creep goes on to an end, in steps of this length, or a little less where the load changes"},
     {.name = "from", .arguments = LIST(NUMBER("time", "time", LIMIT_NOT_NEGATIVE), NUMBER("factor", NULL, LIMIT_NONE)), .apply = add_load,
      .doc = "from this moment on the load of creep is that of `forc` times the factor: a jump, in a step of no length. In the order of time"},
@@ -196,8 +205,8 @@ const struct keyword rkpm_keywords[] = {
             "(nsni) or scni (nsci), with triangles of cells beside scni (mscni, two dimensions). nsci is the best at nodes"},
     {.name = "vci", .arguments = WORD("off|on"), .choice = &(const struct keyword_choice){off_on, FIELD(is_consistent), true},
      .doc = "on: gradients of test functions are corrected so that integration passes patch tests; the matrix is not symmetric then"},
-    {.name = "wave", .arguments = LIST(NUMBER("k", "1/length", LIMIT_POSITIVE)), .field = FIELD(wave_number),
-     .doc = "wave number k of helmholtz and of func wave"},
+    {.name = "wave", .arguments = LIST(NUMBER("k", "1/length", LIMIT_POSITIVE)), .field = FIELD(wave_number), .apply = read_wave,
+     .doc = "wave number k of helmholtz and of func wave; with `/h` behind it over the spacing along x, another problem for each of refi"},
     {.name = "gaus", .long_name = "gauss", .arguments = POINTS, .field = FIELD(gauss),
      .doc = "Gauss points per cell and axis of helmholtz, poisson and elastic (2; 5 with quad)"},
     {.name = "gbou", .long_name = "gboundary", .arguments = POINTS, .field = FIELD(boundary_gauss),

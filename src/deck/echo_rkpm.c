@@ -37,7 +37,7 @@ static bool has_word(const struct scene_rkpm *rkpm, const char *name)
         return is_body && rkpm->dimension == 2;
     if (strcmp(name, "modu") == 0 || strcmp(name, "inte") == 0 || strcmp(name, "vci") == 0)
         return is_body;
-    if (strcmp(name, "rule") == 0 || strcmp(name, "volu") == 0 || strcmp(name, "time") == 0)
+    if (strcmp(name, "rule") == 0 || strcmp(name, "vrel") == 0 || strcmp(name, "span") == 0)
         return is_creep;
     if (strcmp(name, "forc") == 0)
         return rkpm->function == FUNCTION_BEAM || rkpm->function == FUNCTION_LOAD;
@@ -59,7 +59,9 @@ static void echo_word(const struct scene *scene, const struct keyword *row, FILE
         fprintf(stream, "  %s %ld", row->name, *(const long *)(const void *)field);
     else
         print_numbers(stream, row->name, (const double *)(const void *)field, argument_count(row->arguments));
-    fputs(strcmp(row->name, "beta") == 0 && scene->rkpm.beta_over_spacing ? " /h\n" : "\n", stream);
+    const bool is_over_spacing = (strcmp(row->name, "beta") == 0 && scene->rkpm.beta_over_spacing) ||
+                                 (strcmp(row->name, "wave") == 0 && scene->rkpm.wave_over_spacing);
+    fputs(is_over_spacing ? " /h\n" : "\n", stream);
 }
 
 static void echo_dynamic(const struct scene_dynamic *dynamic, FILE *stream)

@@ -57,6 +57,7 @@ struct scene_rkpm {
     enum rkpm_problem problem;
     enum rkpm_function function;
     double wave_number;
+    bool wave_over_spacing; /* it is divided by the spacing along x */
     long gauss, boundary_gauss, norm_gauss; /* points per cell and axis, per boundary segment, of norms; 0: the default */
     enum constraint_form constraint;
     double beta;          /* of penalty and Nitsche's method */

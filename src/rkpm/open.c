@@ -82,6 +82,7 @@ static void create_store(struct rkpm *rkpm)
     uint64_t wanted = 0;
     for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++)
         wanted |= column_bit(columns[i]);
+    rkpm_set_field(rkpm, level);
     struct store *store = rkpm->store = store_open(level->count, wanted);
     for (size_t i = 0; i < level->count; i++) {
         const double x[3] = {level->x[0][i], level->x[1][i], level->x[2][i]};
