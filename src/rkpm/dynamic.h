@@ -40,9 +40,9 @@ struct dynamic_sums {
 struct dynamic_fixed {
     size_t count;
     double low[3], high[3]; /* of their places */
-    bool *is_active;        /* per place in the store: a node that carries stress */
-    bool is_released;       /* the body has been let go */
-    bool is_left_out;       /* the same when the rows were made */
+    unsigned char *is_active; /* per place in the store: 1 for a node that carries stress */
+    int is_released;        /* 1: the body has been let go */
+    int is_left_out;        /* the same when the rows were made */
     int32_t shown;          /* nodes that output shows: those of the body */
 };
 

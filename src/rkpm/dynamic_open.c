@@ -66,7 +66,7 @@ static void create_nodes(struct dynamic *dynamic)
     place_fixed(dynamic);
     dynamic->volumes = memory_array(all, sizeof(double), "nodes");
     dynamic->slot = memory_array(all, sizeof *dynamic->slot, "nodes");
-    dynamic->fixed.is_active = memory_array(all, sizeof(bool), "nodes");
+    dynamic->fixed.is_active = memory_array(all, sizeof *dynamic->fixed.is_active, "nodes");
     for (size_t n = 0; n < all; n++) {
         dynamic->volumes[n] = n < dynamic->count ? dynamic->volume : pow(dynamic->spacing, dynamic->dimension);
         dynamic->slot[n] = (int32_t)n;
