@@ -261,6 +261,28 @@ static void make_levels(struct reader *reader)
     }
 }
 
+/* Nodes of a file: they are read here; what needs the lattice does not go with them. */
+static void check_file(struct reader *reader)
+{
+    struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    const bool has_body = rkpm->problem == PROBLEM_ELASTIC || rkpm->problem == PROBLEM_CREEP;
+    if (!rkpm->file)
+        return;
+    const struct deck_place place = place_of(reader, "file");
+    if (!has_body)
+        diagnostics_error(reader->diagnostics, place, "'file' needs 'prob elastic' or 'prob creep'");
+    if (rkpm->n_refinements > 0)
+        diagnostics_error(reader->diagnostics, place, "nodes of a file can't be refined; leave 'refi' out");
+    if (rkpm->jitter[0] > 0)
+        diagnostics_error(reader->diagnostics, place, "nodes of a file stay where they are; leave 'pert' out");
+    if (rkpm->constraint == CONSTRAINT_LAGRANGE)
+        diagnostics_error(reader->diagnostics, place, "hats need the box's lattice; expected 'cons nits', or 'cons tran' with nodes on held sides");
+    if (rkpm->integration != INTEGRATION_GAUSS && rkpm->dimension != 2)
+        diagnostics_error(reader->diagnostics, place, "cells around nodes off the lattice need 'dime 2'; expected 'inte gauss', or no 'file'");
+    if (reader_nodes_file(reader, place) && rkpm->n_places > MOST_NODES)
+        diagnostics_error(reader->diagnostics, place, "these are %g nodes; expected at most %g", (double)rkpm->n_places, MOST_NODES);
+}
+
 /* --- the rest --- */
 
 static void check_support(struct reader *reader)
@@ -342,10 +364,11 @@ void reader_finish_rkpm(struct reader *reader)
     if (!check_box(reader))
         return;
     make_levels(reader);
+    check_file(reader);
     check_wave(reader);
     check_beta(reader);
     const long *last = rkpm->levels[rkpm->n_levels - 1];
     if (diagnostics_errors(reader->diagnostics) == 0)
-        scene->n_particles = last[0] * last[1] * last[2];
+        scene->n_particles = rkpm->file ? (long)rkpm->n_places : last[0] * last[1] * last[2];
     scene->end_time = scene->output_interval = scene->report_interval = rkpm->problem == PROBLEM_CREEP ? rkpm->end_time : (double)rkpm->n_levels;
 }

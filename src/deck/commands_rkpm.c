@@ -96,6 +96,15 @@ static void read_refinements(struct reader *reader, const struct deck_word *word
     } while (read_next(reader, more, "refi", &value));
 }
 
+/* The file is read when the box and the dimension are known. */
+static void read_file(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    (void)word;
+    memory_free(rkpm->file);
+    rkpm->file = text_path(reader->text, &values[0].word);
+}
+
 static void read_held(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     static const char *const names[] = {"x0", "x1", "y0", "y1", "z0", "z1", NULL};
@@ -199,6 +208,9 @@ const struct keyword rkpm_keywords[] = {
      .doc = "`held x0 x1 y0 y1 z0 z1`: sides of the box where displacements of elastic are given, as many as there are; the others bear tractions. Without it all"},
     {.name = "pert", .long_name = "perturb", .arguments = LIST(NUMBER("s", "spacings", LIMIT_NOT_NEGATIVE), NUMBER("seed", NULL, LIMIT_NOT_NEGATIVE)),
      .field = FIELD(jitter), .doc = "nodes inside the box are moved at random by up to s spacings along each axis, up to 0.45"},
+    {.name = "file", .arguments = WORD("name"), .apply = read_file,
+     .doc = "nodes of elastic and creep from a file instead of the box's lattice, a line of coordinates each: `node box` still says where the body "
+            "ends, what cells Gauss points have, and the spacing"},
     {.name = "inte", .long_name = "integration", .arguments = WORD("gauss|dni|snni|nsni|scni|nsci|mscni"), .choice = CHOICE(integrations, integration),
      .doc = "where elastic is integrated: Gauss points of cells between nodes (gauss, default); at the nodes, with a linear basis: directly "
             "(dni), with gradients smoothed over boxes (snni) or over cells that fit together (scni), with gradients of gradients beside dni "

@@ -111,6 +111,8 @@ void echo_rkpm(const struct scene *scene, FILE *stream)
     for (const struct keyword *row = rkpm_keywords; row->name; row++)
         if ((row->choice || row->field != KEYWORD_NO_FIELD) && has_word(rkpm, row->name))
             echo_word(scene, row, stream);
+    if (rkpm->file)
+        fprintf(stream, "  file \"%s\"\n", rkpm->file);
     echo_held(rkpm, stream);
     echo_pairs("elem", rkpm->elements, rkpm->n_elements, stream);
     echo_pairs("from", rkpm->loads, rkpm->n_loads, stream);

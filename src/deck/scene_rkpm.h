@@ -76,6 +76,9 @@ struct scene_rkpm {
     double loads[RKPM_LOADS][2]; /* from when on the load is multiplied by how much */
     struct deck_place load_places[RKPM_LOADS];
     int n_loads;
+    char *file;           /* nodes of a file, or NULL */
+    double (*places)[3];  /* of those nodes */
+    size_t n_places, place_capacity;
     double jitter[2];     /* random moves of inner nodes, in spacings; the seed */
     struct deck_place place; /* of the word rkpm */
 };
