@@ -18,8 +18,8 @@ _Static_assert(sizeof(enum basis_form) == sizeof(int), "choices are stored as in
 static const char *const bases[] = {[BASIS_LINEAR] = "linear", [BASIS_BILINEAR] = "bilinear", [BASIS_QUADRATIC] = "quad", NULL};
 static const char *const gradients[] = {[GRADIENT_DIRECT] = "direct", [GRADIENT_IMPLICIT] = "implicit", NULL};
 static const char *const problems[] = {[PROBLEM_APPROXIMATION] = "approx", [PROBLEM_HELMHOLTZ] = "helmholtz",
-                                       [PROBLEM_POISSON] = "poisson", [PROBLEM_ELASTIC] = "elastic",
-                                       [PROBLEM_CREEP] = "creep", [PROBLEM_DYNAMIC] = "dynamic", NULL};
+                                       [PROBLEM_POISSON] = "poisson", [PROBLEM_ELASTIC] = "elastic", [PROBLEM_CREEP] = "creep",
+                                       [PROBLEM_DYNAMIC] = "dynamic", NULL};
 static const char *const functions[] = {[FUNCTION_SINE] = "sine", [FUNCTION_EXPONENTIAL] = "expo",
                                         [FUNCTION_WAVE] = "wave", [FUNCTION_LINEAR] = "line", [FUNCTION_PATCH] = "patch",
                                         [FUNCTION_BEAM] = "beam", [FUNCTION_LOAD] = "load", NULL};
@@ -180,8 +180,8 @@ const struct keyword rkpm_keywords[] = {
      .doc = "the function itself, from its values at the nodes (approx); div grad u + k^2 u = f (helmholtz); div grad u = f (poisson): f and "
             "the values at the boundary are those of the function; displacements of an elastic body (elastic): those at held sides and the "
             "tractions on the others are those of the function; those of a viscoelastic body in time (creep), under a load that changes by "
-            "steps; a body that moves in time (dynamic): with mate, endt and curv. Words that are of dynamic alone: mode, star, spin, "
-            "grav, wall, stab"},
+            "steps; a body that moves in time (dynamic): with mate, endt and curv. Words that are of dynamic alone: mode, star, spin, grav, wall, "
+            "stab"},
     {.name = "func", .long_name = "function", .arguments = WORD("sine|expo|wave|line|patch|beam|load"), .choice = CHOICE(functions, function),
      .doc = "exact solution: sin x sin y sin z (sine), exp(x y z) (expo), sin k(x1 - x)/sin k(x1 - x0) with the wave number and ends of the box "
             "(wave), 1 + x + 2 y + 3 z (line); y and z as far as there are dimensions. Of elastic: linear displacements (patch); in two "
