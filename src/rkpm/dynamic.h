@@ -31,7 +31,8 @@ struct dynamic_sums {
     double least_ratio, most_ratio; /* J */
     double wall_force;
     long few_neighbours;         /* points with too few neighbours, those of a wall that carries nothing left out */
-    long bad_node;               /* the first one with J too small or a value that is not finite; -1: none */
+    long least_node;             /* that of least_ratio */
+    long bad_node;               /* the first one with a value that is not finite; else least_node */
     bool is_finite;
 };
 
@@ -86,6 +87,7 @@ struct dynamic {
     long step;
     double time, time_step, first_time_step;
     double updates;
+    double start_energy, start_centre[3]; /* what the check of energies starts from */
     struct dynamic_sums sums;
     struct instability instability;
 };
@@ -117,13 +119,20 @@ void rkpm_dynamic_forces(struct dynamic *dynamic);
 /* Places and velocities of nodes, from those of coefficients. */
 void rkpm_dynamic_places(struct dynamic *dynamic);
 
+/* Force over depth of a node in the wall's springs: pressure over depth times the face of a node. */
+double rkpm_dynamic_stiffness(const struct dynamic *dynamic);
+
 /* Force of the wall's springs per node, from places; velocities along the wall of nodes that stick to it are taken out. */
 void rkpm_dynamic_wall(struct dynamic *dynamic);
 void rkpm_dynamic_hold(struct dynamic *dynamic);
 
 void rkpm_dynamic_sum(struct dynamic *dynamic);
 
-/* What the next step is, by dtfx or by the wave that crosses the spacing of the most compressed node (spec 7). */
+/* Keeps the energy and the centre of the start. */
+void rkpm_dynamic_start(struct dynamic *dynamic);
+
+/* What the next step is, by dtfx or by the wave that crosses the spacing of the most compressed node (spec 7), or less where nodes
+ * meet a wall fast, or strain fast. */
 double rkpm_dynamic_limit(const struct dynamic *dynamic);
 
 #endif

@@ -165,6 +165,7 @@ struct dynamic *rkpm_dynamic_open(const struct scene *scene, struct timers *time
     rkpm_dynamic_places(dynamic);
     rkpm_dynamic_forces(dynamic);
     rkpm_dynamic_sum(dynamic);
+    rkpm_dynamic_start(dynamic);
     dynamic->first_time_step = dynamic->time_step = rkpm_dynamic_limit(dynamic);
     return dynamic;
 }
