@@ -29,14 +29,19 @@ static double energy_of(const struct dynamic_sums *sums)
     return sums->kinetic + sums->internal + sums->wall_energy;
 }
 
-/* Energy over that of the start and the work of gravity since; 1 without any. */
-static double energy_ratio(const struct dynamic *dynamic)
+double rkpm_dynamic_given(const struct dynamic *dynamic)
 {
     const double *gravity = dynamic->words->dynamic.gravity;
     double work = 0;
     for (int a = 0; a < dynamic->dimension; a++)
         work += dynamic->mass * (double)dynamic->count * gravity[a] * (dynamic->sums.centre[a] - dynamic->start_centre[a]);
-    const double given = dynamic->start_energy + fmax(work, 0);
+    return dynamic->start_energy + fmax(work, 0);
+}
+
+/* Energy over what was given; 1 without any. */
+static double energy_ratio(const struct dynamic *dynamic)
+{
+    const double given = rkpm_dynamic_given(dynamic);
     return given > 0 ? energy_of(&dynamic->sums) / given : 1;
 }
 
@@ -128,6 +133,7 @@ static void finish_velocities(struct dynamic *dynamic)
 struct instability rkpm_dynamic_advance(struct dynamic *dynamic)
 {
     timers_enter(dynamic->timers, PHASE_MOVE);
+    rkpm_dynamic_layers(dynamic);
     rkpm_dynamic_move(dynamic);
     if (dynamic->is_semi)
         rkpm_dynamic_follow(dynamic);
@@ -160,6 +166,7 @@ static const struct {
     size_t offset, size;
 } fields[] = {
     FIELD(step), FIELD(time), FIELD(time_step), FIELD(first_time_step), FIELD(updates), FIELD(sums), FIELD(fixed.is_released), FIELD(fixed.is_left_out),
+    FIELD(start_energy), FIELD(start_centre),
 };
 
 void rkpm_dynamic_exchange(struct dynamic *dynamic, struct checkpoint *checkpoint)
@@ -167,6 +174,7 @@ void rkpm_dynamic_exchange(struct dynamic *dynamic, struct checkpoint *checkpoin
     const size_t all = dynamic->store->count, terms = all * (size_t)(dynamic->dimension * dynamic->gradient_terms);
     for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
         checkpoint_item(checkpoint, fields[i].name, (char *)dynamic + fields[i].offset, fields[i].size, 1);
+    rkpm_dynamic_layers_exchange(dynamic, checkpoint);
     store_exchange(dynamic->store, checkpoint, 1);
     for (int a = 0; a < dynamic->dimension; a++) {
         checkpoint_item(checkpoint, "coefficient", dynamic->coefficient[a], sizeof(double), dynamic->count);
