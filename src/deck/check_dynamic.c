@@ -109,13 +109,18 @@ static void check_nodes(struct reader *reader)
                           dynamic->wall_position, low);
 }
 
-static bool is_open_at_start(const struct scene_building *building, long id)
+/* How many nodes are open at the start; of several words about a node the last one counts. */
+static long count_open(const struct scene *scene)
 {
-    bool is_open = false;
-    for (size_t i = 0; i < building->n_ghosts; i++)
-        if (id >= building->ghosts[i].first && id <= building->ghosts[i].last)
-            is_open = building->ghosts[i].is_open;
-    return is_open;
+    long count = 0;
+    for (long id = 0; id < scene->n_particles; id++) {
+        bool is_open = false;
+        for (size_t i = 0; i < scene->building.n_ghosts; i++)
+            if (id >= scene->building.ghosts[i].first && id <= scene->building.ghosts[i].last)
+                is_open = scene->building.ghosts[i].is_open;
+        count += is_open;
+    }
+    return count;
 }
 
 /* New nodes join those that have moved, which shape functions of the start don't know of. */
@@ -123,15 +128,15 @@ static void check_building(struct reader *reader)
 {
     const struct scene *scene = reader->scene;
     const struct scene_building *building = &scene->building;
-    bool has_open = false;
     reader_check_ghosts(reader);
     if (building->settling >= 0)
         diagnostics_error(reader->diagnostics, building->settling_place, "'open settle' does not go with 'prob dynamic'; expected 'endt'");
     if (!building->has_ghosts)
         return;
-    for (long id = 0; id < scene->n_particles && !has_open; id++)
-        has_open = is_open_at_start(building, id);
-    if (!has_open && scene->n_particles > 0)
+    const long open = count_open(scene);
+    if (open == scene->n_particles && building->opening != OPENING_NONE)
+        diagnostics_error(reader->diagnostics, building->open_place, "'open' opens nothing: no node is closed by 'Ghost'");
+    if (open == 0 && scene->n_particles > 0)
         diagnostics_error(reader->diagnostics, building->ghost_place, "no node is open at the start; expected 'GPD id1 id2 1' for the first layer");
     if (scene->rkpm.dynamic.mode != KERNEL_SEMI)
         diagnostics_error(reader->diagnostics, building->ghost_place, "nodes that open join those that have moved; expected 'mode semi'");

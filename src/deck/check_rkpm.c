@@ -94,7 +94,7 @@ static void check_dynamic_words(struct reader *reader)
             diagnostics_error(reader->diagnostics, place_of(reader, words[i]), "'%s' needs 'prob dynamic'", words[i]);
     if (rkpm->dynamic.has_lattice)
         diagnostics_error(reader->diagnostics, place_of(reader, "node"), "'node %s' needs 'prob dynamic'; expected 'node box'",
-                          rkpm->dynamic.lattice.dimension == 2 ? "disc" : "sphere");
+                          rkpm->dynamic.lattice.numbers[0] > 0 ? "brick" : rkpm->dynamic.lattice.dimension == 2 ? "disc" : "sphere");
 }
 
 /* Functions are scalars or displacements; beams lie in a plane. */
