@@ -66,6 +66,7 @@ static void check_needs(struct reader *reader)
                 {"vrel", "'prob creep'", is_creep},
                 {"span", "'prob creep'", is_creep},
                 {"from", "'prob creep'", is_creep},
+                {"weig", "'prob creep'", is_creep},
                 {"refi", "one body after another; leave it out with 'prob creep'", has_norms},
                 {"gnor", "norms of an error, which 'prob creep' has not; leave it out", has_norms},
                 {"held", "'prob elastic' or 'prob creep'", is_elastic},
@@ -123,7 +124,7 @@ static void check_needed(struct reader *reader)
     const struct {
         const char *name, *owner, *message;
         bool is_needed;
-    } rows[] = {{"forc", "func", "the load is not given; expected 'forc p'", has_load},
+    } rows[] = {{"forc", "func", "the load is not given; expected 'forc p'", has_load && !was_given(reader, "weig")},
                 {"modu", "prob", "the moduli are not given; expected 'modu young poisson'", is_creep || rkpm->problem == PROBLEM_ELASTIC},
                 {"elem", "prob", "without elements nothing relaxes; expected 'elem young time', or 'prob elastic'", is_creep},
                 {"span", "prob", "the end is not given; expected 'span end step'", is_creep},

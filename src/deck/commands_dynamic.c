@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Words of the block rkpm that go with `prob dynamic`: nodes of a disc or ball, how they start, gravity, a wall. */
+/* Words of the block rkpm that go with `prob dynamic`: nodes of a disc, ball or brick, how they start, gravity, a wall; weight of creep. */
 #include "deck/commands_dynamic.h"
 
 #include <math.h>
@@ -83,6 +83,12 @@ void reader_start_velocity(struct reader *reader, const struct deck_word *word, 
 {
     (void)word;
     read_vector(reader, values, "star", reader->scene->rkpm.dynamic.velocity);
+}
+
+void reader_rkpm_weight(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    read_vector(reader, values, "weig", reader->scene->rkpm.weight);
 }
 
 void reader_rkpm_gravity(struct reader *reader, const struct deck_word *word, const struct value *values)

@@ -191,6 +191,8 @@ const struct keyword rkpm_keywords[] = {
      .doc = "of elastic in two dimensions: no stress (stress, default) or no strain (strain) across the plane"},
     {.name = "forc", .long_name = "force", .arguments = LIST(NUMBER("p", "force/length", LIMIT_NONE)), .field = FIELD(beam_load),
      .doc = "load of func beam along y at its end, per thickness; of func load along the last axis on the high side along x, spread evenly"},
+    {.name = "weig", .long_name = "weight", .arguments = LIST(NUMBER("wx", "force/length^3", LIMIT_NONE), NUMBER("wy", "force/length^3", LIMIT_NONE)),
+     .apply = reader_rkpm_weight, .doc = "`weig wx wy [wz]`: force per volume of creep; it comes and goes with the load, times the factor of `from`"},
     {.name = "held", .apply = read_held,
      .doc = "`held x0 x1 y0 y1 z0 z1`: sides of the box where displacements of elastic are given, as many as there are; the others bear tractions. Without it all"},
     {.name = "pert", .long_name = "perturb", .arguments = LIST(NUMBER("s", "spacings", LIMIT_NOT_NEGATIVE), NUMBER("seed", NULL, LIMIT_NOT_NEGATIVE)),

@@ -123,6 +123,10 @@ void echo_rkpm(const struct scene *scene, FILE *stream)
         if ((row->choice || row->field != KEYWORD_NO_FIELD) && has_word(rkpm, row->name))
             echo_word(scene, row, stream);
     echo_held(rkpm, stream);
+    if (rkpm->weight[0] != 0 || rkpm->weight[1] != 0 || rkpm->weight[2] != 0) {
+        print_numbers(stream, "weig", rkpm->weight, 3);
+        fputc('\n', stream);
+    }
     echo_pairs("elem", rkpm->elements, rkpm->n_elements, stream);
     echo_pairs("from", rkpm->loads, rkpm->n_loads, stream);
     print_numbers(stream, "supp", rkpm->support, rkpm->n_support);
