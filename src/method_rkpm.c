@@ -47,7 +47,7 @@ static void start_table(struct run *run)
         fprintf(run->errors.stream, "VARIABLES = \"t\" \"load\" \"tip\"\n");
         return;
     }
-    fprintf(run->errors.stream, "VARIABLES = \"n\" \"nx\" \"h\" \"L2\" \"H1\" \"rateL2\" \"rateH1\"%s\n",
+    fprintf(run->errors.stream, "VARIABLES = \"n\" \"nx\" \"h\" \"L2\" \"H1\" \"rateL2\" \"rateH1\" \"relL2\"%s\n",
             is_elastic ? " \"L2x\" \"L2y\" \"L2z\" \"energy\" \"tip\"" : "");
 }
 
@@ -69,8 +69,8 @@ static bool write_table(struct run *run)
     const struct rkpm_level *level = &run->rkpm->levels[run->rkpm->step - 1];
     const struct rkpm_result *result = &level->result;
     const double values[] = {level->box.spacing[0], result->l2, result->h1, result->l2_rate, result->h1_rate,
-                             result->l2_along[0], result->l2_along[1], result->l2_along[2], result->energy, result->tip};
-    const size_t count = run->scene->rkpm.problem == PROBLEM_ELASTIC ? sizeof values / sizeof values[0] : 5;
+                             result->l2_relative, result->l2_along[0], result->l2_along[1], result->l2_along[2], result->energy, result->tip};
+    const size_t count = run->scene->rkpm.problem == PROBLEM_ELASTIC ? sizeof values / sizeof values[0] : 6;
     fprintf(run->errors.stream, " %9zu %6ld", level->count, level->box.numbers[0]);
     for (size_t i = 0; i < count; i++)
         table_real(&run->errors, values[i]);

@@ -8,10 +8,10 @@ main status_ memory_ threads_ timers_ argument_ text_ diagnostics_ keyword_ read
 echo_ help_ column_ store_ cell_list_ generator_ solid_ stl_ crossings_ result_ law_ grid_
 mpm_ faces_ motion_ stress_ shape_ contact_ smoothing_ eos_ johnson_cook_ vtk_ table_
 animation_ history_ progress_ run_ summary_ account_ staggered_ building_ schedule_ transformation_
-heat_ lattice_ laser_ property_ properties_ flow_ surface_ limits_ budget_ sph_ neighbours_ method_
+heat_ laser_ property_ properties_ flow_ surface_ limits_ budget_ sph_ neighbours_ method_
 overlap_ light_nodes_ reference_ checkpoint_ checksum_ restart_ vector_ conjugate_ envelope_ symmetric_ stiffness_ multigrid_ rigid_ equilibrium_
 words_ tecplot_ swing_ draw_ tecview_ remove_ bed_
-rkpm_ basis_ search_ methods_ field_ quadrature_ cells_ points_ held_ body_ solver_ iteration_ creep_ relaxation_ coarse_ deformation_ sparse_ banded_ sound_ maxwell_ finite_
+rkpm_ basis_ search_ methods_ field_ quadrature_ banded_ sound_ maxwell_ finite_ lattice_ cells_ points_ held_ body_ solver_ deformation_ sparse_ iteration_ coarse_ relaxation_ creep_
 END
 )
 bad=$(find . -name '*.o' ! -path './tests/*' | while read -r object; do

@@ -264,6 +264,28 @@ static void make_levels(struct reader *reader)
     }
 }
 
+/* Nodes of a file: they are read here; what needs the lattice does not go with them. */
+static void check_file(struct reader *reader)
+{
+    struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    const bool has_body = rkpm->problem == PROBLEM_ELASTIC || rkpm->problem == PROBLEM_CREEP;
+    if (!rkpm->file)
+        return;
+    const struct deck_place place = place_of(reader, "file");
+    if (!has_body)
+        diagnostics_error(reader->diagnostics, place, "'file' needs 'prob elastic' or 'prob creep'");
+    if (rkpm->n_refinements > 0)
+        diagnostics_error(reader->diagnostics, place, "nodes of a file can't be refined; leave 'refi' out");
+    if (rkpm->jitter[0] > 0)
+        diagnostics_error(reader->diagnostics, place, "nodes of a file stay where they are; leave 'pert' out");
+    if (rkpm->constraint == CONSTRAINT_LAGRANGE)
+        diagnostics_error(reader->diagnostics, place, "hats need the box's lattice; expected 'cons nits', or 'cons tran' with nodes on held sides");
+    if (rkpm->integration != INTEGRATION_GAUSS && rkpm->dimension != 2)
+        diagnostics_error(reader->diagnostics, place, "cells around nodes off the lattice need 'dime 2'; expected 'inte gauss', or no 'file'");
+    if (reader_nodes_file(reader, place) && rkpm->n_places > MOST_NODES)
+        diagnostics_error(reader->diagnostics, place, "these are %g nodes; expected at most %g", (double)rkpm->n_places, MOST_NODES);
+}
+
 /* --- the rest --- */
 
 static void check_support(struct reader *reader)
@@ -290,10 +312,15 @@ static void check_support(struct reader *reader)
 static void check_wave(struct reader *reader)
 {
     const struct scene_rkpm *rkpm = &reader->scene->rkpm;
-    const double turns = rkpm->wave_number * (rkpm->box[1] - rkpm->box[0]);
-    if (rkpm->function == FUNCTION_WAVE && was_given(reader, "wave") && !(fabs(sin(turns)) > 1e-9))
-        diagnostics_error(reader->diagnostics, place_of(reader, "wave"), 
+    for (size_t i = 0; i < rkpm->n_levels && rkpm->function == FUNCTION_WAVE && was_given(reader, "wave"); i++) {
+        const double length = rkpm->box[1] - rkpm->box[0], cells = fmax((double)(rkpm->levels[i][0] - 1), 1);
+        const double turns = rkpm->wave_number * (rkpm->wave_over_spacing ? cells : length);
+        if (fabs(sin(turns)) > 1e-9)
+            continue;
+        diagnostics_error(reader->diagnostics, place_of(reader, "wave"),
                           "%g half waves fit between the ends of the box: none is 1 at one end and 0 at the other", turns / acos(-1));
+        break;
+    }
 }
 
 /* lambda + 2 mu in Young's moduli, where volume is not free to change. */
@@ -358,11 +385,12 @@ void reader_finish_rkpm(struct reader *reader)
     if (!check_box(reader))
         return;
     make_levels(reader);
+    check_file(reader);
     check_wave(reader);
     check_beta(reader);
     check_locking(reader);
     const long *last = rkpm->levels[rkpm->n_levels - 1];
     if (diagnostics_errors(reader->diagnostics) == 0)
-        scene->n_particles = last[0] * last[1] * last[2];
+        scene->n_particles = rkpm->file ? (long)rkpm->n_places : last[0] * last[1] * last[2];
     scene->end_time = scene->output_interval = scene->report_interval = rkpm->problem == PROBLEM_CREEP ? rkpm->end_time : (double)rkpm->n_levels;
 }

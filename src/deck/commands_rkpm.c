@@ -18,8 +18,8 @@ _Static_assert(sizeof(enum basis_form) == sizeof(int), "choices are stored as in
 static const char *const bases[] = {[BASIS_LINEAR] = "linear", [BASIS_BILINEAR] = "bilinear", [BASIS_QUADRATIC] = "quad", NULL};
 static const char *const gradients[] = {[GRADIENT_DIRECT] = "direct", [GRADIENT_IMPLICIT] = "implicit", NULL};
 static const char *const problems[] = {[PROBLEM_APPROXIMATION] = "approx", [PROBLEM_HELMHOLTZ] = "helmholtz",
-                                       [PROBLEM_POISSON] = "poisson", [PROBLEM_ELASTIC] = "elastic",
-                                       [PROBLEM_CREEP] = "creep", [PROBLEM_DYNAMIC] = "dynamic", NULL};
+                                       [PROBLEM_POISSON] = "poisson", [PROBLEM_ELASTIC] = "elastic", [PROBLEM_CREEP] = "creep",
+                                       [PROBLEM_DYNAMIC] = "dynamic", NULL};
 static const char *const functions[] = {[FUNCTION_SINE] = "sine", [FUNCTION_EXPONENTIAL] = "expo",
                                         [FUNCTION_WAVE] = "wave", [FUNCTION_LINEAR] = "line", [FUNCTION_PATCH] = "patch",
                                         [FUNCTION_BEAM] = "beam", [FUNCTION_LOAD] = "load", NULL};
@@ -100,6 +100,15 @@ static void read_refinements(struct reader *reader, const struct deck_word *word
     } while (read_next(reader, more, "refi", &value));
 }
 
+/* The file is read when the box and the dimension are known. */
+static void read_file(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    (void)word;
+    memory_free(rkpm->file);
+    rkpm->file = text_path(reader->text, &values[0].word);
+}
+
 static void read_held(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
     static const char *const names[] = {"x0", "x1", "y0", "y1", "z0", "z1", NULL};
@@ -135,6 +144,15 @@ static void add_load(struct reader *reader, const struct deck_word *word, const 
     rkpm->load_places[rkpm->n_loads] = values[0].word.place;
     rkpm->loads[rkpm->n_loads][0] = values[0].real;
     rkpm->loads[rkpm->n_loads++][1] = values[1].real;
+}
+
+/* A wave number that follows the spacing makes each level another problem: no order can be measured. */
+static void read_wave(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    static const char *const names[] = {"/h", NULL};
+    (void)word;
+    (void)values;
+    reader->scene->rkpm.wave_over_spacing = reader_optional(reader, names) == 0;
 }
 
 static void read_beta(struct reader *reader, const struct deck_word *word, const struct value *values)
@@ -197,14 +215,17 @@ const struct keyword rkpm_keywords[] = {
      .doc = "`held x0 x1 y0 y1 z0 z1`: sides of the box where displacements of elastic are given, as many as there are; the others bear tractions. Without it all"},
     {.name = "pert", .long_name = "perturb", .arguments = LIST(NUMBER("s", "spacings", LIMIT_NOT_NEGATIVE), NUMBER("seed", NULL, LIMIT_NOT_NEGATIVE)),
      .field = FIELD(jitter), .doc = "nodes inside the box are moved at random by up to s spacings along each axis, up to 0.45"},
+    {.name = "file", .arguments = WORD("name"), .apply = read_file,
+     .doc = "nodes of elastic and creep from a file instead of the box's lattice, a line of coordinates each: `node box` still says where the body "
+            "ends, what cells Gauss points have, and the spacing"},
     {.name = "inte", .long_name = "integration", .arguments = WORD("gauss|dni|snni|nsni|scni|nsci|mscni"), .choice = CHOICE(integrations, integration),
      .doc = "where elastic is integrated: Gauss points of cells between nodes (gauss, default); at the nodes, with a linear basis: directly "
             "(dni), with gradients smoothed over boxes (snni) or over cells that fit together (scni), with gradients of gradients beside dni "
             "(nsni) or scni (nsci), with triangles of cells beside scni (mscni, two dimensions). nsci is the best at nodes"},
     {.name = "vci", .arguments = WORD("off|on"), .choice = &(const struct keyword_choice){off_on, FIELD(is_consistent), true},
      .doc = "on: gradients of test functions are corrected so that integration passes patch tests; the matrix is not symmetric then"},
-    {.name = "wave", .arguments = LIST(NUMBER("k", "1/length", LIMIT_POSITIVE)), .field = FIELD(wave_number),
-     .doc = "wave number k of helmholtz and of func wave"},
+    {.name = "wave", .arguments = LIST(NUMBER("k", "1/length", LIMIT_POSITIVE)), .field = FIELD(wave_number), .apply = read_wave,
+     .doc = "wave number k of helmholtz and of func wave; with `/h` behind it over the spacing along x, another problem for each of refi"},
     {.name = "gaus", .long_name = "gauss", .arguments = POINTS, .field = FIELD(gauss),
      .doc = "Gauss points per cell and axis of helmholtz, poisson and elastic (2; 5 with quad)"},
     {.name = "gbou", .long_name = "gboundary", .arguments = POINTS, .field = FIELD(boundary_gauss),

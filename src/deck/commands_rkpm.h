@@ -7,4 +7,7 @@
 
 void reader_rkpm(struct reader *reader, const struct deck_word *word, const struct value *values);
 
+/* Reads the nodes of scene->rkpm.file, when box and dimension are known; false after an error at a place. */
+bool reader_nodes_file(struct reader *reader, struct deck_place where);
+
 #endif

@@ -267,8 +267,9 @@ const struct keyword solving_keywords[] = {
                 "and evaporation need them. The words:"},
     {.name = "rkpm", .methods = METHODS_RKPM, .apply = reader_rkpm, .once = true,
      .doc = "block of what reproducing kernel particles need, up to ends",
-     .details = "rkpm\n  word numbers ...\nends\nThe block says all: there are no materials, bodies or steps in time. A problem counts 1 in "
-                "time. job_error.dat has a line for each:\nnumbers of nodes n and of those along x, spacing h along x, L2 norm of the error, "
+     .details = "rkpm\n  word numbers ...\nends\nThe block says all of a problem: there are no materials, bodies or steps in time. A problem counts 1 in "
+                "time. With `prob dynamic` a body\nmoves in time: beside the block there are nmat and mate with one material, endt, and as with other "
+                "methods outt, rptt, dtfx, dtmi, curv, rest.\nOf problems job_error.dat has a line for each: numbers of nodes n and of those along x, spacing h along x, L2 norm of the error, "
                 "that of its gradient too (H1), rates between problems. The words:"},
     {.name = "endt", .methods = METHODS_TIMED, .long_name = "endtime",
      .arguments = (const struct argument[]){{"time", "time", ARGUMENT_REAL, LIMIT_NOT_NEGATIVE}, {0}},

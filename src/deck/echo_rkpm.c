@@ -59,7 +59,9 @@ static void echo_word(const struct scene *scene, const struct keyword *row, FILE
         fprintf(stream, "  %s %ld", row->name, *(const long *)(const void *)field);
     else
         print_numbers(stream, row->name, (const double *)(const void *)field, argument_count(row->arguments));
-    fputs(strcmp(row->name, "beta") == 0 && scene->rkpm.beta_over_spacing ? " /h\n" : "\n", stream);
+    const bool is_over_spacing = (strcmp(row->name, "beta") == 0 && scene->rkpm.beta_over_spacing) ||
+                                 (strcmp(row->name, "wave") == 0 && scene->rkpm.wave_over_spacing);
+    fputs(is_over_spacing ? " /h\n" : "\n", stream);
 }
 
 static void echo_brick(const struct ball_lattice *lattice, FILE *stream)
@@ -122,6 +124,8 @@ void echo_rkpm(const struct scene *scene, FILE *stream)
     for (const struct keyword *row = rkpm_keywords; row->name; row++)
         if ((row->choice || row->field != KEYWORD_NO_FIELD) && has_word(rkpm, row->name))
             echo_word(scene, row, stream);
+    if (rkpm->file)
+        fprintf(stream, "  file \"%s\"\n", rkpm->file);
     echo_held(rkpm, stream);
     if (rkpm->weight[0] != 0 || rkpm->weight[1] != 0 || rkpm->weight[2] != 0) {
         print_numbers(stream, "weig", rkpm->weight, 3);

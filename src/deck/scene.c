@@ -54,6 +54,8 @@ void scene_close(struct scene *scene)
     memory_free(scene->rkpm.refinements);
     memory_free(scene->rkpm.refinement_places);
     memory_free(scene->rkpm.levels);
+    memory_free(scene->rkpm.file);
+    memory_free(scene->rkpm.places);
     memory_free(scene);
 }
 

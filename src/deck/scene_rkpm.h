@@ -57,6 +57,7 @@ struct scene_rkpm {
     enum rkpm_problem problem;
     enum rkpm_function function;
     double wave_number;
+    bool wave_over_spacing; /* it is divided by the spacing along x */
     long gauss, boundary_gauss, norm_gauss; /* points per cell and axis, per boundary segment, of norms; 0: the default */
     enum constraint_form constraint;
     double beta;          /* of penalty and Nitsche's method */
@@ -76,6 +77,9 @@ struct scene_rkpm {
     double loads[RKPM_LOADS][2]; /* from when on the load is multiplied by how much */
     struct deck_place load_places[RKPM_LOADS];
     int n_loads;
+    char *file;           /* nodes of a file, or NULL */
+    double (*places)[3];  /* of those nodes */
+    size_t n_places, place_capacity;
     double jitter[2];     /* random moves of inner nodes, in spacings; the seed */
     struct deck_place place; /* of the word rkpm */
 };

@@ -8,11 +8,11 @@
 #include "material/maxwell.h"
 
 #include <math.h>
-#include <string.h>
 
 /* As in the list of words of the row; columns of history: J less 1, b less 1. */
 enum { WORD_EXPONENTIAL = 1, WORD_MIDPOINT = 2 };
 enum { HISTORY_SHAPE = 1, HISTORY_ELEMENTS = 7 };
+enum { PASS = 8 }; /* elements whose factors are kept at a time */
 
 static const char *prepare(struct material *material)
 {
@@ -67,67 +67,80 @@ THREADS_INLINE struct shape shape_of(const struct law_batch *batch, int j, doubl
     return shape;
 }
 
-/* q of an element, and its part of J sigma. */
-THREADS_INLINE void element_point(const struct law_batch *batch, int j, double *const *history, double shear, struct maxwell_factors factors)
-{
-    double g[3][3], q[6];
-    finite_gradient(batch, j, g);
-    const struct shape shape = shape_of(batch, j, g);
-    for (int a = 0; a < 6; a++)
-        q[a] = factors.decay * history[a][batch->history_from + j] - factors.share * shear * shape.before[a];
-    finite_carry(g, q);
-    for (int a = 0; a < 6; a++) {
-        q[a] = (1 + batch->terms[0][j]) * q[a] + factors.share * shear * shape.after[a];
-        history[a][batch->history_from + j] = q[a];
-    }
-    deviate(q);
-    for (int a = 0; a < 6; a++)
-        batch->stress[a][j] += q[a];
-}
+/* Elements of a pass over the points: those from `from` to `to` - 1 with their factors; after the last of them the rest. */
+struct pass {
+    int from, to;
+    bool is_first, is_last;
+    double spring;
+    struct maxwell_factors factors[PASS];
+};
 
-THREADS_VECTORISED
-static void update_element(const struct law_batch *batch, int i, struct maxwell_factors factors)
+/* q of the elements of a pass, and their part of J sigma. */
+THREADS_INLINE void element_point(const struct law_batch *batch, int j, double g[3][3], const struct shape *shape, const struct pass *pass, double sum[6])
 {
-    const double shear = batch->material->elements[i].shear;
-    double *const *history = batch->history + HISTORY_ELEMENTS + 6 * i;
-    for (int j = 0; j < batch->count; j++)
-        element_point(batch, j, history, shear, factors);
-}
-
-/* J, b, what the spring and the volume have of J sigma, and sigma. */
-THREADS_INLINE void finish_point(const struct law_batch *batch, int j, double spring)
-{
-    double g[3][3];
-    finite_gradient(batch, j, g);
-    const struct shape shape = shape_of(batch, j, g);
-    const double ratio = finite_volume(batch, j, finite_swelling(g));
-    const double swelling = 0.5 * batch->material->bulk_modulus * ratio * (2 + ratio);
-    for (int a = 0; a < 6; a++) {
-        batch->history[HISTORY_SHAPE + a][batch->history_from + j] = shape.whole[a];
-        batch->stress[a][j] = (batch->stress[a][j] + spring * shape.after[a] + (a < 3 ? swelling : 0)) / (1 + ratio);
+    const double scale = 1 + batch->terms[0][j];
+    for (int i = pass->from; i < pass->to; i++) {
+        const struct maxwell_factors factors = pass->factors[i - pass->from];
+        const double share = factors.share * batch->material->elements[i].shear;
+        double *const *history = batch->history + HISTORY_ELEMENTS + 6 * i, q[6];
+        for (int a = 0; a < 6; a++)
+            q[a] = factors.decay * history[a][batch->history_from + j] - share * shape->before[a];
+        finite_carry(g, q);
+        for (int a = 0; a < 6; a++) {
+            q[a] = scale * q[a] + share * shape->after[a];
+            history[a][batch->history_from + j] = q[a];
+        }
+        deviate(q);
+        for (int a = 0; a < 6; a++)
+            sum[a] += q[a];
     }
 }
 
+/* The last pass adds what the spring and the volume have of J sigma, and keeps J and b. */
+THREADS_INLINE void update_point(const struct law_batch *batch, int j, const struct pass *pass)
+{
+    double g[3][3], sum[6];
+    finite_gradient(batch, j, g);
+    const struct shape shape = shape_of(batch, j, g);
+    for (int a = 0; a < 6; a++)
+        sum[a] = pass->is_first ? 0 : batch->stress[a][j];
+    element_point(batch, j, g, &shape, pass, sum);
+    if (pass->is_last) {
+        const double ratio = finite_volume(batch, j, finite_swelling(g));
+        const double swelling = 0.5 * batch->material->bulk_modulus * ratio * (2 + ratio);
+        for (int a = 0; a < 6; a++) {
+            batch->history[HISTORY_SHAPE + a][batch->history_from + j] = shape.whole[a];
+            sum[a] = (sum[a] + pass->spring * shape.after[a] + (a < 3 ? swelling : 0)) / (1 + ratio);
+        }
+    }
+    for (int a = 0; a < 6; a++)
+        batch->stress[a][j] = sum[a];
+}
+
 THREADS_VECTORISED
-static void finish(const struct law_batch *batch, double spring)
+static void update_points(const struct law_batch *batch, const struct pass *pass)
 {
     for (int j = 0; j < batch->count; j++)
-        finish_point(batch, j, spring);
+        update_point(batch, j, pass);
 }
 
 static void update(const struct law_batch *batch)
 {
     const struct material *material = batch->material;
     const enum maxwell_rule rule = material->words & WORD_MIDPOINT ? MAXWELL_MIDPOINT : MAXWELL_EXPONENTIAL;
-    double spring = material->shear_modulus;
+    struct pass pass = {.is_first = true, .spring = material->shear_modulus};
     find_scales(batch);
-    for (int a = 0; a < 6; a++)
-        memset(batch->stress[a], 0, (size_t)batch->count * sizeof *batch->stress[a]);
-    for (int i = 0; i < material->n_elements; i++) {
-        update_element(batch, i, maxwell_factors(rule, batch->time_step, material->elements[i].time));
-        spring -= material->elements[i].shear;
-    }
-    finish(batch, spring);
+    do {
+        pass.to = material->n_elements - pass.from > PASS ? pass.from + PASS : material->n_elements;
+        pass.is_last = pass.to == material->n_elements;
+        for (int i = pass.from; i < pass.to; i++) {
+            pass.factors[i - pass.from] = maxwell_factors(rule, batch->time_step, material->elements[i].time);
+            pass.spring -= material->elements[i].shear;
+        }
+        update_points(batch, &pass);
+        pass.from = pass.to;
+        pass.is_first = false;
+    } while (!pass.is_last);
 }
 
 const struct law law_fmax = {

@@ -48,6 +48,39 @@ static void number_lattice(struct body *body)
     }
 }
 
+/* A node by its coordinates, the one along the axis with most nodes first. */
+struct placed {
+    double x[3];
+    int32_t node;
+};
+
+static int compare_placed(const void *a, const void *b)
+{
+    const struct placed *p = a, *q = b;
+    for (int i = 0; i < 3; i++)
+        if (p->x[i] != q->x[i])
+            return p->x[i] < q->x[i] ? -1 : 1;
+    return (p->node > q->node) - (p->node < q->node);
+}
+
+static void number_scattered(struct body *body)
+{
+    struct placed *placed = memory_array(body->nodes, sizeof *placed, "the linear system");
+    int order[3];
+    order_axes(body->box, order);
+    for (size_t n = 0; n < body->nodes; n++) {
+        placed[n].node = (int32_t)n;
+        for (int i = 0; i < 3; i++)
+            placed[n].x[i] = body->x[order[2 - i]][n];
+    }
+    qsort(placed, body->nodes, sizeof *placed, compare_placed);
+    for (size_t n = 0; n < body->nodes; n++) {
+        body->node[n] = placed[n].node;
+        body->number[placed[n].node] = (int32_t)n;
+    }
+    memory_free(placed);
+}
+
 /* --- structure of the matrix --- */
 
 /* Notes which rows are coupled with that of a node by points, once each; how many there are from `n` on. */
@@ -367,7 +400,7 @@ void body_open(struct body *body, const struct scene_rkpm *words, const struct n
     body->mark = memory_array((size_t)body->n_marks, sizeof *body->mark, "the linear system");
     for (int t = 0; t < body->n_marks; t++)
         body->mark[t] = memory_array(nodes, sizeof **body->mark, "the linear system");
-    number_lattice(body);
+    words->file ? number_scattered(body) : number_lattice(body);
     if (words->is_consistent)
         open_correction(body);
     open_matrix(body);

@@ -42,7 +42,8 @@ struct body {
     int n_marks;
 };
 
-/* Points, numbering and the matrix's structure of nodes x[axis][node]; nothing is given at the faces yet. */
+/* Points, numbering and the matrix's structure of nodes x[axis][node], on the box's lattice in its order or anywhere; nothing is
+ * given at the faces yet. */
 void body_open(struct body *body, const struct scene_rkpm *words, const struct node_box *box, size_t nodes, double *const *x,
                 const struct rkpm_shape *shape, int gauss, int boundary_gauss, double beta);
 void body_close(struct body *body);

@@ -169,6 +169,20 @@ static const struct {
     FIELD(start_energy), FIELD(start_centre),
 };
 
+/* Whether nodes that were read can be: numbers, and volumes that are more than nothing. */
+static bool are_sound(const struct dynamic *dynamic)
+{
+    const double *volume = dynamic->store->real[COLUMN_VOLUME][0];
+    for (size_t n = 0; n < dynamic->store->count; n++)
+        if (!(isfinite(volume[n]) && volume[n] > 0 && isfinite(dynamic->volumes[n]) && dynamic->volumes[n] > 0))
+            return false;
+    for (int a = 0; a < dynamic->dimension; a++)
+        for (size_t n = 0; n < dynamic->count; n++)
+            if (!isfinite(dynamic->coefficient[a][n]) || !isfinite(dynamic->velocity[a][n]) || !isfinite(dynamic->acceleration[a][n]))
+                return false;
+    return isfinite(dynamic->time_step) && dynamic->time_step > 0;
+}
+
 void rkpm_dynamic_exchange(struct dynamic *dynamic, struct checkpoint *checkpoint)
 {
     const size_t all = dynamic->store->count, terms = all * (size_t)(dynamic->dimension * dynamic->gradient_terms);
@@ -186,10 +200,12 @@ void rkpm_dynamic_exchange(struct dynamic *dynamic, struct checkpoint *checkpoin
                     dynamic->count * (size_t)(dynamic->nodal.rows * dynamic->dimension * dynamic->dimension));
     if (terms > 0)
         checkpoint_item(checkpoint, "gradient_stress", dynamic->gradient_stress, sizeof(double), terms);
-    if (!dynamic->is_semi)
-        return;
     checkpoint_item(checkpoint, "volumes", dynamic->volumes, sizeof(double), all);
-    checkpoint_item(checkpoint, "is_active", dynamic->fixed.is_active, sizeof(bool), all);
-    if (checkpoint_is_reading(checkpoint) && checkpoint_is_good(checkpoint))
+    checkpoint_item(checkpoint, "is_active", dynamic->fixed.is_active, sizeof *dynamic->fixed.is_active, all);
+    if (!checkpoint_is_reading(checkpoint) || !checkpoint_is_good(checkpoint))
+        return;
+    if (!are_sound(dynamic))
+        checkpoint_reject(checkpoint, "nodes");
+    else if (dynamic->is_semi)
         rkpm_dynamic_renew(dynamic);
 }

@@ -43,9 +43,9 @@ struct dynamic_sums {
 struct dynamic_fixed {
     size_t count;
     double low[3], high[3]; /* of their places */
-    bool *is_active;        /* per place in the store: a node that carries stress */
-    bool is_released;       /* the body has been let go */
-    bool is_left_out;       /* the same when the rows were made */
+    unsigned char *is_active; /* per place in the store: 1 for a node that carries stress */
+    int is_released;        /* 1: the body has been let go */
+    int is_left_out;        /* the same when the rows were made */
     int32_t shown;          /* nodes that output shows: those of the body */
 };
 
@@ -54,6 +54,7 @@ struct dynamic_pairs {
     int32_t *first; /* per coefficient, one more at the end */
     int32_t *node;  /* whose row it is */
     int32_t *place; /* its place in the row */
+    double *gradients; /* a copy of those in the rows, by pairs, rows, axes, where rows stay as they are; else NULL */
     size_t capacity[2];
 };
 
@@ -80,7 +81,7 @@ struct dynamic {
     double *coefficient[3];    /* places of coefficients; with the semi-Lagrangian kernel of nodes */
     double *velocity[3], *acceleration[3]; /* of them */
     double *increment;         /* of their places in the step, node by node, `dimension` each */
-    double *place;             /* of coefficients, in the same way */
+    double *motion;            /* places and velocities of coefficients, in the same way, 2 dimension each */
     double *load;              /* by nodes, rows: weight times stress, dimension^2 each; its work is the internal energy */
     double *gradient_stress;   /* nsni, in the order of the store, by axes: `gradient_terms` each */
     int gradient_terms;
@@ -112,7 +113,7 @@ void rkpm_dynamic_layers(struct dynamic *dynamic);
 void rkpm_dynamic_layers_exchange(struct dynamic *dynamic, struct checkpoint *checkpoint);
 size_t rkpm_dynamic_closed(const struct dynamic *dynamic);
 
-/* Lists of pairs by coefficient, from the rows as they are. */
+/* Lists of pairs by coefficient, from the rows as they are; with a copy of the gradients where these stay. */
 void rkpm_dynamic_pairs(struct dynamic *dynamic);
 
 void rkpm_dynamic_move(struct dynamic *dynamic);

@@ -7,6 +7,17 @@
 
 /* --- pairs --- */
 
+/* Neighbours' rows lie far apart; a copy in the order in which they are read costs as much room again. */
+static void copy_gradients(const struct nodal *nodal, struct dynamic_pairs *pairs, size_t total)
+{
+    const size_t each = (size_t)(nodal->rows * nodal->dimension), stride = (size_t)nodal->stride;
+    memory_free(pairs->gradients);
+    pairs->gradients = memory_array(total * each, sizeof(double), "pairs of nodes");
+    for (size_t p = 0; p < total; p++)
+        for (size_t i = 0; i < each; i++)
+            pairs->gradients[p * each + i] = nodal->gradients[((size_t)pairs->node[p] * each + i) * stride + (size_t)pairs->place[p]];
+}
+
 void rkpm_dynamic_pairs(struct dynamic *dynamic)
 {
     const struct nodal *nodal = &dynamic->nodal;
@@ -31,6 +42,8 @@ void rkpm_dynamic_pairs(struct dynamic *dynamic)
             pairs->node[to] = (int32_t)n;
             pairs->place[to] = k;
         }
+    if (!dynamic->is_semi)
+        copy_gradients(nodal, pairs, total);
 }
 
 /* --- forces --- */
@@ -40,12 +53,13 @@ THREADS_INLINE void collect(const struct dynamic *dynamic, size_t coefficient, d
 {
     const struct nodal *nodal = &dynamic->nodal;
     const struct dynamic_pairs *pairs = &dynamic->pairs;
-    const size_t stride = (size_t)nodal->stride, rows = (size_t)nodal->rows, axes = (size_t)d;
+    const size_t rows = (size_t)nodal->rows, axes = (size_t)d, stride = pairs->gradients ? 1 : (size_t)nodal->stride;
     double sum[3] = {0};
     for (int32_t p = pairs->first[coefficient]; p < pairs->first[coefficient + 1]; p++) {
         const size_t node = (size_t)pairs->node[p];
         const double *restrict load = dynamic->load + node * rows * axes * axes;
-        const double *restrict row = nodal->gradients + node * rows * axes * stride + (size_t)pairs->place[p];
+        const double *restrict row = pairs->gradients ? pairs->gradients + (size_t)p * rows * axes
+                                                      : nodal->gradients + node * rows * axes * stride + (size_t)pairs->place[p];
         for (size_t r = 0; r < rows; r++, load += axes * axes, row += axes * stride)
             for (int i = 0; i < d; i++)
                 for (int j = 0; j < d; j++)
@@ -93,11 +107,13 @@ THREADS_INLINE void place_node(struct dynamic *dynamic, size_t node, const int d
     const int32_t *neighbour = rkpm_nodal_neighbour(nodal, node);
     const double *restrict value = rkpm_nodal_value(nodal, node);
     double x[3] = {0}, v[3] = {0};
-    for (int k = 0; k < nodal->neighbours[node]; k++)
+    for (int k = 0; k < nodal->neighbours[node]; k++) {
+        const double *restrict motion = dynamic->motion + (size_t)neighbour[k] * (size_t)(2 * d);
         for (int a = 0; a < d; a++) {
-            x[a] += value[k] * dynamic->place[(size_t)neighbour[k] * (size_t)d + (size_t)a];
-            v[a] += value[k] * dynamic->velocity[a][neighbour[k]];
+            x[a] += value[k] * motion[a];
+            v[a] += value[k] * motion[d + a];
         }
+    }
     for (int a = 0; a < d; a++) {
         dynamic->store->real[COLUMN_POSITION][a][node] = dynamic->is_semi ? dynamic->coefficient[a][node] : x[a];
         dynamic->store->real[COLUMN_VELOCITY][a][node] = v[a];
@@ -120,8 +136,10 @@ void rkpm_dynamic_places(struct dynamic *dynamic)
 {
     const size_t d = (size_t)dynamic->dimension;
     for (size_t a = 0; a < d; a++)
-        for (size_t n = 0; n < dynamic->nodes; n++)
-            dynamic->place[n * d + a] = dynamic->coefficient[a][n];
+        for (size_t n = 0; n < dynamic->nodes; n++) {
+            dynamic->motion[2 * n * d + a] = dynamic->coefficient[a][n];
+            dynamic->motion[(2 * n + 1) * d + a] = dynamic->velocity[a][n];
+        }
 #pragma omp parallel for schedule(static) if (dynamic->count >= DYNAMIC_FEW_NODES)
     for (size_t n = 0; n < dynamic->count; n++)
         (dynamic->dimension == 2 ? place_node_2 : place_node_3)(dynamic, n);

@@ -66,7 +66,7 @@ static void create_nodes(struct dynamic *dynamic)
     place_fixed(dynamic);
     dynamic->volumes = memory_array(all, sizeof(double), "nodes");
     dynamic->slot = memory_array(all, sizeof *dynamic->slot, "nodes");
-    dynamic->fixed.is_active = memory_array(all, sizeof(bool), "nodes");
+    dynamic->fixed.is_active = memory_array(all, sizeof *dynamic->fixed.is_active, "nodes");
     for (size_t n = 0; n < all; n++) {
         dynamic->volumes[n] = n < dynamic->count ? dynamic->volume : pow(dynamic->spacing, dynamic->dimension);
         dynamic->slot[n] = (int32_t)n;
@@ -125,13 +125,23 @@ static void create_work(struct dynamic *dynamic)
     for (int a = 0; a < 3; a++)
         dynamic->spin[a] = memory_array(count, sizeof(double), "strains");
     dynamic->increment = memory_array(count * axes, sizeof(double), "nodes");
-    dynamic->place = memory_array(count * axes, sizeof(double), "nodes");
+    dynamic->motion = memory_array(2 * count * axes, sizeof(double), "nodes");
     dynamic->load = memory_array(count * rows * axes * axes, sizeof(double), "forces");
     dynamic->gradient_terms = gradient_terms(dynamic);
     dynamic->gradient_stress = memory_array(count * axes * (size_t)dynamic->gradient_terms, sizeof(double), "gradients of stress");
 }
 
-/* Rows of all nodes first, so that there is room for them. */
+/* Nodes that rows are expected of: a body half as wide again, and fixed nodes within two supports of it. */
+static size_t expected_nodes(const struct dynamic *dynamic)
+{
+    const struct scene_dynamic *words = &dynamic->words->dynamic;
+    double fixed = WALL_LAYERS;
+    for (int a = 0; a < dynamic->dimension; a++)
+        fixed *= a == words->wall_axis ? 1 : 3 * words->lattice.radius / dynamic->spacing + 4 * dynamic->words->support[a];
+    return fixed < (double)dynamic->fixed.count ? dynamic->count + (size_t)fixed : dynamic->store->count;
+}
+
+/* There is room for more nodes than those that take part at the start. */
 static void open_rows(struct dynamic *dynamic)
 {
     const struct scene_rkpm *words = dynamic->words;
@@ -141,7 +151,7 @@ static void open_rows(struct dynamic *dynamic)
         for (size_t n = 0; n < dynamic->store->count; n++)
             dynamic->coefficient[a][n] = dynamic->rest[a][n];
     }
-    rkpm_nodal_open(&dynamic->nodal, dynamic->dimension, words->integration, words->gradient, dynamic->store->count,
+    rkpm_nodal_open(&dynamic->nodal, dynamic->dimension, words->integration, words->gradient, expected_nodes(dynamic),
                     dynamic->is_semi ? dynamic->coefficient : dynamic->rest, dynamic->volumes, NULL, radius, !dynamic->is_semi);
 }
 
@@ -185,7 +195,7 @@ void rkpm_dynamic_close(struct dynamic *dynamic)
     for (int a = 0; a < 6; a++)
         memory_free(dynamic->strain[a]);
     double *const arrays[] = {dynamic->volumes,         dynamic->trace, dynamic->volume_before,
-                              dynamic->terms[0],        dynamic->terms[1], dynamic->wall_force, dynamic->increment, dynamic->place,
+                              dynamic->terms[0],        dynamic->terms[1], dynamic->wall_force, dynamic->increment, dynamic->motion,
                               dynamic->load,            dynamic->gradient_stress};
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
         memory_free(arrays[i]);
@@ -196,6 +206,7 @@ void rkpm_dynamic_close(struct dynamic *dynamic)
     memory_free(dynamic->pairs.first);
     memory_free(dynamic->pairs.node);
     memory_free(dynamic->pairs.place);
+    memory_free(dynamic->pairs.gradients);
     store_close(dynamic->store);
     memory_free(dynamic);
 }

@@ -161,7 +161,7 @@ void rkpm_dynamic_release(struct dynamic *dynamic)
 
 static void make_rows(struct dynamic *dynamic)
 {
-    dynamic->nodal.count = dynamic->nodes;
+    rkpm_nodal_resize(&dynamic->nodal, dynamic->nodes);
     rkpm_nodal_renew(&dynamic->nodal);
     rkpm_dynamic_pairs(dynamic);
 }

@@ -118,7 +118,7 @@ void rkpm_elastic_solve(struct rkpm *rkpm, struct rkpm_level *level)
 struct errors {
     struct rkpm *rkpm;
     struct rkpm_level *level;
-    double value[3], gradient, energy, whole;
+    double value[3], exact, gradient, energy, whole;
 };
 
 /* u^h, and where `gradient` is not NULL its gradient, at a point. */
@@ -160,6 +160,7 @@ static void add_errors(void *context, const struct quadrature_point *point)
     errors->whole += point->weight * work(d, stress, slope);
     for (int a = 0; a < d; a++) {
         errors->value[a] += point->weight * (u[a] - exact[a]) * (u[a] - exact[a]);
+        errors->exact += point->weight * exact[a] * exact[a];
         for (int b = 0; b < d; b++) {
             gradient[a][b] -= slope[a][b];
             errors->gradient += point->weight * gradient[a][b] * gradient[a][b];
@@ -195,6 +196,7 @@ void rkpm_elastic_measure(struct rkpm *rkpm, struct rkpm_level *level)
         value += errors.value[a];
     }
     result->l2 = sqrt(value);
+    result->l2_relative = errors.exact > 0 ? sqrt(value / errors.exact) : 0;
     result->h1 = sqrt(value + errors.gradient);
     result->energy = errors.whole > 0 ? sqrt(errors.energy / errors.whole) : 0;
     result->tip = tip_of(rkpm, level);

@@ -276,6 +276,16 @@ static void open_scratch(struct nodal_scratch *scratch, int stride)
     scratch->value[1] = next + 2 * size;
 }
 
+static void make_node_room(struct nodal *nodal)
+{
+    const size_t count = nodal->count;
+    size_t *capacity = nodal->node_capacity;
+    nodal->neighbours = memory_grow(nodal->neighbours, &capacity[0], count, sizeof *nodal->neighbours, "rows of nodes");
+    nodal->weights = memory_grow(nodal->weights, &capacity[1], count * (size_t)nodal->rows, sizeof(double), "rows of nodes");
+    nodal->reach = memory_grow(nodal->reach, &capacity[2], count, sizeof(double), "rows of nodes");
+    nodal->is_lowered = memory_grow(nodal->is_lowered, &capacity[3], count, sizeof *nodal->is_lowered, "rows of nodes");
+}
+
 /* Makes room for so many neighbours of each node. */
 static void make_room(struct nodal *nodal, int stride)
 {
@@ -343,10 +353,7 @@ static void open_rows(struct nodal *nodal, const double radius[3])
     const size_t count = nodal->count;
     for (int a = 0; a < 3; a++)
         nodal->radius[a] = radius[a];
-    nodal->neighbours = memory_array(count, sizeof *nodal->neighbours, "rows of nodes");
-    nodal->weights = memory_array(count * (size_t)nodal->rows, sizeof(double), "rows of nodes");
-    nodal->reach = memory_array(count, sizeof(double), "rows of nodes");
-    nodal->is_lowered = memory_array(count, sizeof *nodal->is_lowered, "rows of nodes");
+    make_node_room(nodal);
     nodal->n_scratch = threads_available();
     nodal->scratch = memory_array((size_t)nodal->n_scratch, sizeof *nodal->scratch, "rows of nodes");
     search_open(&nodal->search, nodal->dimension, count, nodal->x, radius);
@@ -362,6 +369,14 @@ void rkpm_nodal_open(struct nodal *nodal, int dimension, enum integration_form r
     for (int a = 0; a < 3; a++)
         nodal->moment[a] = moment ? moment[a] : NULL;
     open_rows(nodal, radius);
+}
+
+void rkpm_nodal_resize(struct nodal *nodal, size_t count)
+{
+    nodal->count = count;
+    make_node_room(nodal);
+    if (count > nodal->room)
+        make_room(nodal, nodal->stride);
 }
 
 void rkpm_nodal_open_cells(struct nodal *nodal, enum integration_form rule, const struct cells *cells, double *const *x, const double radius[3])

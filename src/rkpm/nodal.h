@@ -19,7 +19,7 @@ struct nodal {
     int dimension;
     enum integration_form rule;
     enum gradient_form gradient; /* of dni: direct or implicit; nsni has implicit ones, snni none */
-    size_t count;            /* the caller may lower it, and raise it again, before the rows are made anew */
+    size_t count;
     double *const *x;        /* the caller's: nodes' places, by axis */
     const double *volume;    /* the caller's: of the nodes' cells */
     const struct cells *cells; /* the caller's, of scni, nsni with scni, mscni; else NULL */
@@ -37,11 +37,11 @@ struct nodal {
     double *reach;       /* per node: factor of the supports at it, 1 or more */
     bool *is_lowered;    /* per node: even with it nodes are too few; the row is Shepard's, its gradients zero */
     long enlarged, lowered;
-    size_t room;         /* nodes at most: those of the start */
+    size_t room;         /* nodes that pairs have room for */
     struct search search;
     struct nodal_scratch *scratch;
     int n_scratch;
-    size_t neighbour_capacity, value_capacity, gradient_capacity;
+    size_t neighbour_capacity, value_capacity, gradient_capacity, node_capacity[4];
 };
 
 /* Makes rows of nodes x[axis][node], whose arrays stay where they are; `moment` may be NULL. */
@@ -54,6 +54,9 @@ void rkpm_nodal_close(struct nodal *nodal);
 /* Makes the rows anew after places, volumes or moments have changed. Nodes are shared among the threads; the rows don't
  * depend on how many there are. Room only grows when a node gets more neighbours than any had before. */
 void rkpm_nodal_renew(struct nodal *nodal);
+
+/* Changes the number of nodes; then the rows are to be made anew. Room is kept, and grows where there are more nodes than before. */
+void rkpm_nodal_resize(struct nodal *nodal, size_t count);
 
 /* What row `row` of a node says along an axis, one number per neighbour; its weight; the neighbours; Psi_J at the node. */
 static inline const double *rkpm_nodal_gradient(const struct nodal *nodal, size_t node, int row, int axis)

@@ -7,18 +7,20 @@
 struct norms {
     struct rkpm *rkpm;
     struct rkpm_level *level;
-    double value, gradient; /* sums of squares */
+    double value, gradient, exact; /* sums of squares */
 };
 
 static void add_error(void *context, const struct quadrature_point *point)
 {
     struct norms *norms = context;
     const struct shape_row *row = rkpm_row(norms->rkpm, norms->level, point->x, norms->rkpm->words->gradient);
-    double exact[3], error = -field_value(&norms->rkpm->field, point->x);
+    const double given = field_value(&norms->rkpm->field, point->x);
+    double exact[3], error = -given;
     field_gradient(&norms->rkpm->field, point->x, exact);
     for (int i = 0; i < row->count; i++)
         error += row->value[i] * norms->level->coefficient[row->node[i]];
     norms->value += point->weight * error * error;
+    norms->exact += point->weight * given * given;
     for (int a = 0; a < norms->level->box.dimension; a++) {
         double slope = -exact[a];
         for (int i = 0; i < row->count; i++)
@@ -38,9 +40,10 @@ static double rate(const struct rkpm *rkpm, const struct rkpm_level *level, doub
 
 static void measure_field(struct rkpm *rkpm, struct rkpm_level *level)
 {
-    struct norms norms = {rkpm, level, 0, 0};
+    struct norms norms = {.rkpm = rkpm, .level = level};
     quadrature_inside(&level->box, rkpm->norm_gauss, add_error, &norms);
     level->result.l2 = sqrt(norms.value);
+    level->result.l2_relative = norms.exact > 0 ? sqrt(norms.value / norms.exact) : 0;
     level->result.h1 = sqrt(norms.value + norms.gradient);
 }
 

@@ -35,7 +35,7 @@ bool rkpm_is_boundary(const struct node_box *box, size_t node)
 }
 
 /* On the lattice; those inside moved at random by up to `jitter` spacings along each axis. */
-static void create_nodes(struct rkpm_level *level, const double jitter[2])
+static void create_lattice(struct rkpm_level *level, const double jitter[2])
 {
     const struct node_box *box = &level->box;
     for (int a = 0; a < 3; a++)
@@ -51,12 +51,27 @@ static void create_nodes(struct rkpm_level *level, const double jitter[2])
     }
 }
 
+/* Those of a file, or the lattice. */
+static void create_nodes(struct rkpm_level *level, const struct scene_rkpm *words)
+{
+    if (!words->file) {
+        create_lattice(level, words->jitter);
+        return;
+    }
+    level->count = words->n_places;
+    for (int a = 0; a < 3; a++) {
+        level->x[a] = memory_array(level->count, sizeof(double), "nodes");
+        for (size_t i = 0; i < level->count; i++)
+            level->x[a][i] = words->places[i][a];
+    }
+}
+
 static void open_level(struct rkpm *rkpm, struct rkpm_level *level, const long numbers[3])
 {
     const struct scene_rkpm *words = rkpm->words;
     double radius[3] = {1, 1, 1}, smallest = INFINITY;
     create_box(level, words, numbers);
-    create_nodes(level, words->jitter);
+    create_nodes(level, words);
     for (int a = 0; a < level->box.dimension; a++) {
         radius[a] = words->support[a] * level->box.spacing[a];
         smallest = fmin(smallest, level->box.spacing[a]);
@@ -82,6 +97,7 @@ static void create_store(struct rkpm *rkpm)
     uint64_t wanted = 0;
     for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++)
         wanted |= column_bit(columns[i]);
+    rkpm_set_field(rkpm, level);
     struct store *store = rkpm->store = store_open(level->count, wanted);
     for (size_t i = 0; i < level->count; i++) {
         const double x[3] = {level->x[0][i], level->x[1][i], level->x[2][i]};

@@ -33,6 +33,7 @@ struct rkpm_system {
 /* What came out of a level. */
 struct rkpm_result {
     double l2, h1;           /* norms of the error; H1: of the error and its gradient */
+    double l2_relative;      /* over that of the exact solution */
     double l2_along[3], energy; /* of displacements by axis; of strains, over the energy of the exact ones */
     double tip;              /* displacement over the exact one, along the last axis, in the middle of the high face along x */
     double l2_rate, h1_rate; /* orders between the level before and this one; 0 for the first */
@@ -105,6 +106,9 @@ void rkpm_elastic_step(struct rkpm *rkpm, struct rkpm_level *level);
 /* Whether displacements are looked for; whether there is a level or step to come. */
 bool rkpm_has_body(const struct rkpm *rkpm);
 bool rkpm_goes_on(const struct rkpm *rkpm);
+
+/* Takes the wave number of a level into the exact solution. */
+void rkpm_set_field(struct rkpm *rkpm, const struct rkpm_level *level);
 
 /* Norms of the error of a level. */
 void rkpm_measure(struct rkpm *rkpm, struct rkpm_level *level);

@@ -19,6 +19,11 @@ const struct shape_row *rkpm_row(struct rkpm *rkpm, struct rkpm_level *level, co
     return row;
 }
 
+void rkpm_set_field(struct rkpm *rkpm, const struct rkpm_level *level)
+{
+    rkpm->field.wave_number = rkpm->words->wave_number / (rkpm->words->wave_over_spacing ? level->box.spacing[0] : 1);
+}
+
 /* Coefficients are the values at the nodes. */
 static void approximate(struct rkpm *rkpm, struct rkpm_level *level)
 {
@@ -66,6 +71,7 @@ struct instability rkpm_advance(struct rkpm *rkpm)
     if (rkpm->words->problem == PROBLEM_CREEP)
         return advance_time(rkpm);
     struct rkpm_level *level = &rkpm->levels[rkpm->step++];
+    rkpm_set_field(rkpm, level);
     timers_enter(rkpm->timers, PHASE_SYSTEM);
     if (rkpm->words->problem == PROBLEM_APPROXIMATION)
         approximate(rkpm, level);

@@ -30,7 +30,7 @@ static bool has_multipliers(const struct scene_rkpm *words)
 /* k^2 of the equation. */
 static double wave_square(const struct rkpm *rkpm)
 {
-    const double k = rkpm->words->wave_number;
+    const double k = rkpm->field.wave_number;
     return rkpm->words->problem == PROBLEM_HELMHOLTZ ? k * k : 0;
 }
 

@@ -50,6 +50,9 @@ problem() {
     if grind -o out job.mpm; then echo "ok $1"; else echo "FAIL $1"; head -n 12 said; failed=1; fi
 }
 for deck in sine_1d_quad_25 sine_2d_30 helmholtz_2 poisson_lagrange poisson_nitsche poisson_transformation; do problem $deck; done
+check "nodes in motion: springs" decks/coverage/rkpm_spring.mpm 4 ""
+check "nodes in motion: nodes of a wall" decks/coverage/rkpm_natural.mpm 4 ""
+check "nodes in motion: a ball" decks/coverage/rkpm_ball.mpm 2 ""
 cp "$here/property/equilibria.mpm" job.mpm
 if grind -o out job.mpm; then echo "ok equilibria"; else echo "FAIL equilibria"; head -n 12 said; failed=1; fi
 printf 'mpm3d wrong\nnbco 0 nbo 1\nmate\n1 elas x\n' >job.mpm

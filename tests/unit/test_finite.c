@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-enum { MOST = 3, MOST_HISTORY = 7 + 6 * MOST };
+enum { MOST = 20, MOST_HISTORY = 7 + 6 * MOST };
 enum { MAXWELL_EXPONENTIAL_WORD = 1, MAXWELL_MIDPOINT_WORD = 2, OLDROYD_STRANG = 1, OLDROYD_LIE = 2, OLDROYD_EXPONENTIAL = 4 };
 
 /* One point. */
@@ -449,6 +449,32 @@ static void test_batch(void)
     }
 }
 
+/* Twenty elements, each a twentieth of one, are that one. */
+static void test_many(void)
+{
+    struct point one, many;
+    double elements[MOST][2], deviation = 0;
+    for (int i = 0; i < MOST; i++)
+        elements[i][0] = 4480.0 / MOST, elements[i][1] = 0.02;
+    start_maxwell(&one, 0);
+    start_point(&many, &law_fmax, 0, MAXWELL, MOST, (const double(*)[2])elements);
+    follow_path(&one, 1e-3, 1, 0);
+    follow_path(&many, 1e-3, 1, 0);
+    for (int a = 0; a < 6; a++)
+        deviation = fmax(deviation, fabs(many.stress[a] / one.stress[a] - 1));
+    check_near("fmax: an element in twenty parts", deviation, 0, 1e-12);
+    start_point(&one, &law_oldr, 0, OLDROYD, 1, (const double[][2]){{4, 0.02}});
+    for (int i = 0; i < MOST; i++)
+        elements[i][0] = 4.0 / MOST;
+    start_point(&many, &law_oldr, 0, OLDROYD, MOST, (const double(*)[2])elements);
+    follow_path(&one, 1e-3, 1, 0);
+    follow_path(&many, 1e-3, 1, 0);
+    deviation = 0;
+    for (int a = 0; a < 6; a++)
+        deviation = fmax(deviation, fabs(many.stress[a] / one.stress[a] - 1));
+    check_near("oldr: a polymer in twenty parts", deviation, 0, 1e-12);
+}
+
 /* Two rules at once are refused. */
 static void test_words(void)
 {
@@ -471,6 +497,7 @@ int main(void)
     test_limit();
     test_small();
     test_batch();
+    test_many();
     test_words();
     return check_result();
 }

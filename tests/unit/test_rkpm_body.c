@@ -80,22 +80,21 @@ struct problem {
     struct rkpm *rkpm;
 };
 
-static struct problem open_problem(const char *block)
+static void open_problem(struct problem *problem, const char *block)
 {
-    struct problem problem = {.diagnostics = diagnostics_open()};
+    *problem = (struct problem){.diagnostics = diagnostics_open()};
     struct deck_builder deck = {0};
     deck_add(&deck, "mpm3d test\nmeth rkpm\nrkpm\n%s\nends\nendi\n", block);
-    problem.text = text_open(problem.diagnostics);
-    text_include_memory(problem.text, "test", deck.text, deck.length);
+    problem->text = text_open(problem->diagnostics);
+    text_include_memory(problem->text, "test", deck.text, deck.length);
     free(deck.text);
-    problem.scene = reader_read(problem.text, problem.diagnostics);
-    if (diagnostics_errors(problem.diagnostics) > 0) {
-        diagnostics_print(problem.diagnostics, problem.text, stderr, false);
+    problem->scene = reader_read(problem->text, problem->diagnostics);
+    if (diagnostics_errors(problem->diagnostics) > 0) {
+        diagnostics_print(problem->diagnostics, problem->text, stderr, false);
         exit(1);
     }
-    timers_start(&problem.timers);
-    problem.rkpm = rkpm_open(problem.scene, &problem.timers);
-    return problem;
+    timers_start(&problem->timers);
+    problem->rkpm = rkpm_open(problem->scene, &problem->timers);
 }
 
 static void close_problem(struct problem *problem)
@@ -108,7 +107,8 @@ static void close_problem(struct problem *problem)
 
 static struct rkpm_result result_of(const char *block)
 {
-    struct problem problem = open_problem(block);
+    struct problem problem;
+    open_problem(&problem, block);
     for (size_t i = 0; i < problem.rkpm->n_levels; i++)
         check_true("the problem is solved", !rkpm_advance(problem.rkpm).is_stopped);
     const struct rkpm_result result = problem.rkpm->levels[problem.rkpm->n_levels - 1].result;
@@ -158,7 +158,8 @@ static void check_penalty(void)
 /* The largest difference between coefficients by elimination and by conjugate gradients, over the largest of them. */
 static double difference_of(const char *block, long *iterations)
 {
-    struct problem problem = open_problem(block);
+    struct problem problem;
+    open_problem(&problem, block);
     struct rkpm_level *level = problem.rkpm->levels;
     const size_t count = level->count * (size_t)level->box.dimension;
     double worst = 0, largest = 0, *direct = memory_array(count, sizeof *direct, "a test");
@@ -201,7 +202,8 @@ static void check_threads(const char *block, double most_work)
     bool same = true;
     for (int run = 0; run < 3; run++) {
         threads_set(run == 0 ? 1 : run == 1 ? 2 : 5);
-        struct problem problem = open_problem(block);
+        struct problem problem;
+        open_problem(&problem, block);
         struct rkpm_level *level = problem.rkpm->levels;
         const size_t count = level->count * (size_t)level->box.dimension;
         solver_close(&level->solver);
@@ -257,7 +259,8 @@ static void find_frequencies(int nodes, double *error, double *critical)
     double mass[BAR_MOST] = {0};
     double least, largest, psi[BAR_MOST] = {0};
     snprintf(block, sizeof block, "dime 1 node box 0 1 %d supp 2 gaus 8 prob elastic func patch modu 1 0.3 held x0 cons tran", nodes);
-    struct problem problem = open_problem(block);
+    struct problem problem;
+    open_problem(&problem, block);
     struct body *body = &problem.rkpm->levels[0].body;
     body_assemble(body, problem.rkpm->deformation.moduli);
     memset(k, 0, sizeof k);

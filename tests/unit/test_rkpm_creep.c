@@ -90,22 +90,21 @@ struct problem {
     struct rkpm *rkpm;
 };
 
-static struct problem open_problem(const char *block)
+static void open_problem(struct problem *problem, const char *block)
 {
-    struct problem problem = {.diagnostics = diagnostics_open()};
+    *problem = (struct problem){.diagnostics = diagnostics_open()};
     struct deck_builder deck = {0};
     deck_add(&deck, "mpm3d test\nmeth rkpm\nrkpm\n%s\nends\nendi\n", block);
-    problem.text = text_open(problem.diagnostics);
-    text_include_memory(problem.text, "test", deck.text, deck.length);
+    problem->text = text_open(problem->diagnostics);
+    text_include_memory(problem->text, "test", deck.text, deck.length);
     free(deck.text);
-    problem.scene = reader_read(problem.text, problem.diagnostics);
-    if (diagnostics_errors(problem.diagnostics) > 0) {
-        diagnostics_print(problem.diagnostics, problem.text, stderr, false);
+    problem->scene = reader_read(problem->text, problem->diagnostics);
+    if (diagnostics_errors(problem->diagnostics) > 0) {
+        diagnostics_print(problem->diagnostics, problem->text, stderr, false);
         exit(1);
     }
-    timers_start(&problem.timers);
-    problem.rkpm = rkpm_open(problem.scene, &problem.timers);
-    return problem;
+    timers_start(&problem->timers);
+    problem->rkpm = rkpm_open(problem->scene, &problem->timers);
 }
 
 static void close_problem(struct problem *problem)
@@ -119,7 +118,8 @@ static void close_problem(struct problem *problem)
 /* Steps end at changes of the load and at the end, and no step is longer than asked for. */
 static void check_steps(void)
 {
-    struct problem problem = open_problem("dime 2 node box 0 4 0 1 5 3 supp 1.75 prob creep func load forc 1 modu 1 0.3 elem 2 3 held x0 "
+    struct problem problem;
+    open_problem(&problem, "dime 2 node box 0 4 0 1 5 3 supp 1.75 prob creep func load forc 1 modu 1 0.3 elem 2 3 held x0 "
                                           "span 1 0.3 from 0.5 2 from 1 3");
     static const struct creep_step expected[] = {{0.25, 0.25, 0}, {0.5, 0.25, 0}, {0.5, 0, 2}, {0.75, 0.25, 2}, {1, 0.25, 2}, {1, 0, 3}};
     const struct creep *creep = &problem.rkpm->creep;
@@ -138,7 +138,8 @@ static void check_scaling(const char *words, double bound)
 {
     char block[300];
     snprintf(block, sizeof block, "%s prob creep func load forc 1 modu 1 0.3 elem 4 1 vrel on held x0 span 10 0.02 from 0 1", words);
-    struct problem problem = open_problem(block);
+    struct problem problem;
+    open_problem(&problem, block);
     rkpm_advance(problem.rkpm);
     const double at_once = problem.rkpm->tip;
     while (rkpm_goes_on(problem.rkpm) && !rkpm_advance(problem.rkpm).is_stopped)
@@ -154,7 +155,8 @@ static void check_threads(const char *block)
     double tip[3];
     for (int run = 0; run < 3; run++) {
         threads_set(run == 0 ? 1 : run == 1 ? 2 : 5);
-        struct problem problem = open_problem(block);
+        struct problem problem;
+        open_problem(&problem, block);
         while (rkpm_goes_on(problem.rkpm) && !rkpm_advance(problem.rkpm).is_stopped)
             continue;
         tip[run] = problem.rkpm->tip;
