@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Pictures of reproducing kernel particles, into FOLDER: a drop on a wall at seven times, its width and its speed against those
-# of finite elements, and the creep of a cantilever against Euler and Bernoulli's beam: sh tools/pictures_rkpm.sh BUILD FOLDER
+# Pictures of reproducing kernel particles, into FOLDER: a drop on a wall at seven times, its width against that of finite
+# elements, the creep of a cantilever against Euler and Bernoulli's beam, the stress in layers laid one on another:
+# sh tools/pictures_rkpm.sh BUILD FOLDER
 build=$1 folder=$2
 mkdir -p "$folder" || exit 4
 
@@ -52,3 +53,8 @@ paste "$folder/creep_beam_error.dat" "$folder/creep_beam_quad_error.dat" | awk '
     function creep(t) { return t < 0 ? 0 : 0.32 * (1 - 0.8 * exp(-t / 5)) }
     NR > 1 { print $1, $3, $6, creep($1) - ($2 == 0 ? creep($1 - 10) : 0) }' >>"$table"
 chart creep "$table" --x t --y "linear,quadratic,Euler and Bernoulli" --title "Creep of a cantilever" --xlabel time --ylabel "tip" --unit 1,length
+
+run deposition
+"$build/tecview" points "$folder/deposition_anim.dat" --from top --of stsy --label "stress along y" --unit Pa --length-unit m --size 700x700 \
+    --out "$folder/deposition.png" || exit
+echo "$folder/deposition.png"
