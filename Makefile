@@ -113,10 +113,11 @@ stability: all
 kills: all
 	@KILLS=$(KILLS) SEED=$(SEED) sh tests/stability/kills.sh $(build)
 
-# The last state of decks of each chapter of the thesis, and of smoothed particles, as pictures in report/pictures.
+# The last state of decks of each chapter of the thesis, of smoothed and of reproducing kernel particles, as pictures in report/pictures.
 pictures: all
 	@sh tools/pictures.sh $(build) report/pictures
 	@sh tools/pictures_sph.sh $(build) report/pictures
+	@sh tools/pictures_rkpm.sh $(build) report/pictures
 
 # MANUAL.md, from the program's own tables.
 manual: $(build)/mpm3d
@@ -159,7 +160,7 @@ help:
 	@echo "make report   accuracy against run time by case and scheme: report/index.html; QUICK=1 for the short form"
 	@echo "make stability the largest stable step by scheme and shape, extreme scenes (QUICK=1: less of it)"
 	@echo "make kills    runs killed at random moments that go on, and full disks (KILLS=300, 3 minutes)"
-	@echo "make pictures draws decks of each chapter of the thesis and of smoothed particles (6 minutes)"
+	@echo "make pictures draws decks of each chapter of the thesis, of smoothed and reproducing kernel particles (7 minutes)"
 	@echo "make manual   writes MANUAL.md from the program's tables"
 	@echo "make fuzz     fuzzes the readers of decks, checkpoints, STL files (clang); FUZZ=stl: one of them; FUZZ_TIME=seconds"
 	@echo "make install  PREFIX=$(PREFIX), DESTDIR; make uninstall; make clean"

@@ -10,7 +10,7 @@ static void open_solver(struct run *run)
     struct dynamic *dynamic = run->dynamic = rkpm_dynamic_open(run->scene, &run->timers);
     run->store = dynamic->store;
     run->source = (struct result_source){.store = dynamic->store, .body_material = &dynamic->material, .body_material_number = &number,
-                                         .n_open = &dynamic->fixed.shown};
+                                         .n_open = &dynamic->fixed.shown, .shows_closed = run->scene->building.shows_ghosts};
 }
 
 static void close_solver(struct run *run)

@@ -34,7 +34,7 @@ void summary_dynamic_instability(const struct run *run, const struct instability
     fprintf(stream, "mpm3d: the run is stopped at step %ld, time %.6E: %s\n", dynamic->step, dynamic->time, instability->cause);
     if (instability->particle >= 0) {
         const size_t n = (size_t)instability->particle;
-        fprintf(stream, "       node %ld, law %s, at (%.6g, %.6g, %.6g), velocity (%.6g, %.6g, %.6g)\n", instability->particle + 1,
+        fprintf(stream, "       node %d, law %s, at (%.6g, %.6g, %.6g), velocity (%.6g, %.6g, %.6g)\n", store->integer[COLUMN_ID][n] + 1,
                 dynamic->material->law->name, store->real[COLUMN_POSITION][0][n], store->real[COLUMN_POSITION][1][n],
                 store->real[COLUMN_POSITION][2][n], store->real[COLUMN_VELOCITY][0][n], store->real[COLUMN_VELOCITY][1][n],
                 store->real[COLUMN_VELOCITY][2][n]);

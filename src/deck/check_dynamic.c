@@ -2,6 +2,7 @@
 /* What only the whole deck shows of the motion of reproducing kernel particles: words that are missing, nodes, the
  * material, curves, pairs that don't go together. */
 #include "deck/commands_dynamic.h"
+#include "deck/commands_process.h"
 
 #include <math.h>
 #include <string.h>
@@ -85,12 +86,13 @@ static void check_nodes(struct reader *reader)
     if (!was_given(reader, "node"))
         return;
     if (!dynamic->has_lattice) {
-        diagnostics_error(reader->diagnostics, place_of(reader, "node"), "'prob dynamic' moves a disc or a ball; expected 'node disc x y radius "
-                                                                         "spacing' or 'node sphere x y z radius spacing'");
+        diagnostics_error(reader->diagnostics, place_of(reader, "node"), "'prob dynamic' moves a disc, a ball or a brick; expected 'node disc x y radius "
+                                                                         "spacing', 'node sphere x y z radius spacing' or 'node brick x0 x1 ... spacing'");
         return;
     }
     if (dynamic->lattice.dimension != rkpm->dimension) {
-        diagnostics_error(reader->diagnostics, dynamic->lattice_place, "'node %s' needs 'dime %d'", dynamic->lattice.dimension == 2 ? "disc" : "sphere",
+        diagnostics_error(reader->diagnostics, dynamic->lattice_place, "'node %s' needs 'dime %d'",
+                          dynamic->lattice.numbers[0] > 0 ? "brick" : dynamic->lattice.dimension == 2 ? "disc" : "sphere",
                           dynamic->lattice.dimension);
         return;
     }
@@ -101,10 +103,45 @@ static void check_nodes(struct reader *reader)
         diagnostics_error(reader->diagnostics, dynamic->lattice_place, "the radius is %g spacings; expected 2 or more",
                           dynamic->lattice.radius / dynamic->lattice.spacing);
     scene->n_particles = (long)count;
-    const double low = dynamic->lattice.centre[dynamic->wall_axis] - dynamic->lattice.radius;
+    const double low = lattice_low(&dynamic->lattice, dynamic->wall_axis);
     if (dynamic->wall != RKPM_WALL_NONE && low < dynamic->wall_position)
         diagnostics_error(reader->diagnostics, dynamic->wall_place, "the wall is at %g, and the body begins at %g; expected a body above the wall",
                           dynamic->wall_position, low);
+}
+
+/* How many nodes are open at the start; of several words about a node the last one counts. */
+static long count_open(const struct scene *scene)
+{
+    long count = 0;
+    for (long id = 0; id < scene->n_particles; id++) {
+        bool is_open = false;
+        for (size_t i = 0; i < scene->building.n_ghosts; i++)
+            if (id >= scene->building.ghosts[i].first && id <= scene->building.ghosts[i].last)
+                is_open = scene->building.ghosts[i].is_open;
+        count += is_open;
+    }
+    return count;
+}
+
+/* New nodes join those that have moved, which shape functions of the start don't know of. */
+static void check_building(struct reader *reader)
+{
+    const struct scene *scene = reader->scene;
+    const struct scene_building *building = &scene->building;
+    reader_check_ghosts(reader);
+    if (building->settling >= 0)
+        diagnostics_error(reader->diagnostics, building->settling_place, "'open settle' does not go with 'prob dynamic'; expected 'endt'");
+    if (!building->has_ghosts)
+        return;
+    const long open = count_open(scene);
+    if (open == scene->n_particles && building->opening != OPENING_NONE)
+        diagnostics_error(reader->diagnostics, building->open_place, "'open' opens nothing: no node is closed by 'Ghost'");
+    if (open == 0 && scene->n_particles > 0)
+        diagnostics_error(reader->diagnostics, building->ghost_place, "no node is open at the start; expected 'GPD id1 id2 1' for the first layer");
+    if (scene->rkpm.dynamic.mode != KERNEL_SEMI)
+        diagnostics_error(reader->diagnostics, building->ghost_place, "nodes that open join those that have moved; expected 'mode semi'");
+    if (scene->rkpm.dynamic.wall == RKPM_WALL_NATURAL)
+        diagnostics_error(reader->diagnostics, scene->rkpm.dynamic.wall_place, "'wall natural' does not go with 'Ghost'; expected 'wall spring'");
 }
 
 static void check_curves(struct reader *reader)
@@ -124,5 +161,6 @@ void reader_finish_dynamic(struct reader *reader)
         reader_finish_materials(reader);
     check_pairs(reader);
     check_nodes(reader);
+    check_building(reader);
     check_curves(reader);
 }

@@ -11,6 +11,8 @@
 static const double MOST_NODES = 1e7, LARGEST_SUPPORT = 20;
 /* Above this, times the spacing, the trace between boundary nodes is held more than it can follow (spec 4). */
 static const double LARGEST_BETA = 1e3;
+/* lambda + 2 mu over Young's modulus from which on linear functions lock: Poisson's ratio 0.483. */
+static const double LARGEST_STIFFEST = 10;
 static const double LARGEST_JITTER = 0.45, MOST_STEPS = 1e7;
 
 static bool was_given(const struct reader *reader, const char *name)
@@ -64,6 +66,7 @@ static void check_needs(struct reader *reader)
                 {"vrel", "'prob creep'", is_creep},
                 {"span", "'prob creep'", is_creep},
                 {"from", "'prob creep'", is_creep},
+                {"weig", "'prob creep'", is_creep},
                 {"refi", "one body after another; leave it out with 'prob creep'", has_norms},
                 {"gnor", "norms of an error, which 'prob creep' has not; leave it out", has_norms},
                 {"held", "'prob elastic' or 'prob creep'", is_elastic},
@@ -92,7 +95,7 @@ static void check_dynamic_words(struct reader *reader)
             diagnostics_error(reader->diagnostics, place_of(reader, words[i]), "'%s' needs 'prob dynamic'", words[i]);
     if (rkpm->dynamic.has_lattice)
         diagnostics_error(reader->diagnostics, place_of(reader, "node"), "'node %s' needs 'prob dynamic'; expected 'node box'",
-                          rkpm->dynamic.lattice.dimension == 2 ? "disc" : "sphere");
+                          rkpm->dynamic.lattice.numbers[0] > 0 ? "brick" : rkpm->dynamic.lattice.dimension == 2 ? "disc" : "sphere");
 }
 
 /* Functions are scalars or displacements; beams lie in a plane. */
@@ -121,7 +124,7 @@ static void check_needed(struct reader *reader)
     const struct {
         const char *name, *owner, *message;
         bool is_needed;
-    } rows[] = {{"forc", "func", "the load is not given; expected 'forc p'", has_load},
+    } rows[] = {{"forc", "func", "the load is not given; expected 'forc p'", has_load && !was_given(reader, "weig")},
                 {"modu", "prob", "the moduli are not given; expected 'modu young poisson'", is_creep || rkpm->problem == PROBLEM_ELASTIC},
                 {"elem", "prob", "without elements nothing relaxes; expected 'elem young time', or 'prob elastic'", is_creep},
                 {"span", "prob", "the end is not given; expected 'span end step'", is_creep},
@@ -320,6 +323,23 @@ static void check_wave(struct reader *reader)
     }
 }
 
+/* lambda + 2 mu in Young's moduli, where volume is not free to change. */
+static double stiffest(const struct scene_rkpm *rkpm)
+{
+    const bool is_elastic = rkpm->problem == PROBLEM_ELASTIC || rkpm->problem == PROBLEM_CREEP;
+    const bool is_free = rkpm->dimension == 1 || (rkpm->dimension == 2 && rkpm->plane == PLANE_STRESS);
+    return is_elastic && !is_free ? (1 - rkpm->poisson) / ((1 + rkpm->poisson) * (1 - 2 * rkpm->poisson)) : 1;
+}
+
+/* Linear functions can't bend without a change of volume. */
+static void check_locking(struct reader *reader)
+{
+    const struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    if (was_given(reader, "modu") && rkpm->basis != BASIS_QUADRATIC && stiffest(rkpm) > LARGEST_STIFFEST)
+        diagnostics_warning(reader->diagnostics, place_of(reader, "modu"),
+                            "Poisson's ratio %g makes a body of linear functions much too stiff (locking); take basi quad", rkpm->poisson);
+}
+
 static void check_beta(struct reader *reader)
 {
     const struct scene_rkpm *rkpm = &reader->scene->rkpm;
@@ -328,9 +348,10 @@ static void check_beta(struct reader *reader)
         for (int a = 0; a < rkpm->dimension; a++)
             largest = fmax(largest, (rkpm->box[2 * a + 1] - rkpm->box[2 * a]) / fmax((double)(rkpm->levels[i][a] - 1), 1));
     const double product = rkpm->beta * (rkpm->beta_over_spacing ? 1 : largest);
-    if (was_given(reader, "beta") && product > LARGEST_BETA)
+    if (was_given(reader, "beta") && product > LARGEST_BETA * fmax(0.1 * stiffest(rkpm), 1))
         diagnostics_warning(reader->diagnostics, place_of(reader, "beta"),
-                            "beta times the spacing is %g: above %g coarse nodes are held too much at the boundary", product, LARGEST_BETA);
+                            "beta times the spacing is %g: above %g coarse nodes are held too much at the boundary", product,
+                            LARGEST_BETA * fmax(0.1 * stiffest(rkpm), 1));
 }
 
 void reader_finish_rkpm(struct reader *reader)
@@ -367,6 +388,7 @@ void reader_finish_rkpm(struct reader *reader)
     check_file(reader);
     check_wave(reader);
     check_beta(reader);
+    check_locking(reader);
     const long *last = rkpm->levels[rkpm->n_levels - 1];
     if (diagnostics_errors(reader->diagnostics) == 0)
         scene->n_particles = rkpm->file ? (long)rkpm->n_places : last[0] * last[1] * last[2];

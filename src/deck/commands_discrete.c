@@ -295,17 +295,17 @@ const struct keyword discrete_keywords[] = {
                                             LENGTH("z1"), {0}},
      .apply = read_plot_box,
      .doc = "particles of later bodies created outside this box are left out of the animation file"},
-    {.name = "Ghos", .methods = METHODS_MPM, .long_name = "Ghost", .apply = reader_ghosts,
+    {.name = "Ghos", .methods = METHODS_MPM | METHODS_DYNAMIC, .long_name = "Ghost", .apply = reader_ghosts,
      .doc = "block that closes all particles but those it opens, up to endG; `ghos show` writes closed particles too",
      .details = "Ghost\n  GPD id value          (0 closed, 1 open)\n  GPD id1 id2 value\nendG\nA closed particle takes part in "
                 "nothing until `open` opens it. The words:"},
-    {.name = "open", .methods = METHODS_MPM, .apply = reader_opening,
+    {.name = "open", .methods = METHODS_MPM | METHODS_DYNAMIC, .apply = reader_opening,
      .doc = "how closed particles open: `open point every n`, `open group k every n`, `open layer every n`, `open all`",
      .details = "open point every n     one particle every n steps, in the order of `scan`\nopen group k every n   k particles\n"
                 "open layer every n     a layer\nopen all               all at the first step\n"
                 "open settle n          the run ends n steps after the last opening, whatever endt says\n"
                 "open until id          no particle opens after this one, nor the rest of its layer"},
-    {.name = "buil", .methods = METHODS_MPM, .long_name = "build", .apply = reader_build,
+    {.name = "buil", .methods = METHODS_MPM | METHODS_DYNAMIC, .long_name = "build", .apply = reader_build,
      .doc = "build direction x, y or z (default), and the thickness of layers; without it particles of one height are a layer",
      .details = "buil x|y|z [thickness]"},
     {.name = "scan", .methods = METHODS_MPM, .apply = reader_scan,

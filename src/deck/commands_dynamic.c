@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Words of the block rkpm that go with `prob dynamic`: nodes of a disc or ball, how they start, gravity, a wall. */
+/* Words of the block rkpm that go with `prob dynamic`: nodes of a disc, ball or brick, how they start, gravity, a wall; weight of creep. */
 #include "deck/commands_dynamic.h"
+
+#include <math.h>
 
 #define NUMBER(name, unit, limit) {name, unit, ARGUMENT_REAL, limit}
 
@@ -19,11 +21,52 @@ void reader_lattice(struct reader *reader, int dimension, struct deck_place plac
         return;
     dynamic->has_lattice = true;
     dynamic->lattice_place = place;
-    dynamic->lattice.dimension = dimension;
+    dynamic->lattice = (struct ball_lattice){.dimension = dimension};
     for (int a = 0; a < dimension; a++)
         dynamic->lattice.centre[a] = values[a].real;
     dynamic->lattice.radius = values[dimension].real;
     dynamic->lattice.spacing = values[dimension + 1].real;
+}
+
+/* Whole numbers of spacings from low to high along an axis; false after an error. */
+static bool set_side(struct reader *reader, struct ball_lattice *lattice, int axis, double low, double high, struct deck_place place)
+{
+    static const double ROUNDING = 1e-6, MOST = 1e7;
+    const double number = floor((high - low) / lattice->spacing + 0.5);
+    if (!(high > low) || number > MOST || fabs((high - low) / lattice->spacing - number) > ROUNDING * number) {
+        diagnostics_error(reader->diagnostics, place, "from %g to %g along %c are %g spacings; expected a whole number up to %g", low, high,
+                          "xyz"[axis], (high - low) / lattice->spacing, MOST);
+        return false;
+    }
+    lattice->numbers[axis] = (long)number;
+    lattice->centre[axis] = 0.5 * (low + high);
+    lattice->radius = fmax(lattice->radius, 0.5 * (high - low));
+    return true;
+}
+
+void reader_brick(struct reader *reader, struct deck_place place)
+{
+    static const struct argument number[] = {NUMBER("number", "length", LIMIT_NONE), {0}};
+    struct scene_dynamic *dynamic = &reader->scene->rkpm.dynamic;
+    struct value values[8] = {{0}};
+    int n = 0;
+    while (n < 7 && reader_has_more(reader) && reader_values(reader, number, "node brick", &values[n]))
+        n++;
+    if (n != 5 && n != 7) {
+        diagnostics_error(reader->diagnostics, place, "'node brick' has %d numbers; expected x0 x1 y0 y1 spacing or x0 x1 y0 y1 z0 z1 spacing", n);
+        return;
+    }
+    const double spacing = values[n - 1].real;
+    if (!(spacing > 0)) {
+        diagnostics_error(reader->diagnostics, values[n - 1].word.place, "the spacing must be greater than 0, not %g", spacing);
+        return;
+    }
+    struct ball_lattice lattice = {.dimension = n / 2, .spacing = spacing};
+    dynamic->has_lattice = true;
+    dynamic->lattice_place = place;
+    for (int a = 0; a < n / 2; a++)
+        dynamic->has_lattice = set_side(reader, &lattice, a, values[2 * a].real, values[2 * a + 1].real, values[2 * a + 1].word.place) && dynamic->has_lattice;
+    dynamic->lattice = lattice;
 }
 
 /* The third component of a vector may be left out. */
@@ -40,6 +83,12 @@ void reader_start_velocity(struct reader *reader, const struct deck_word *word, 
 {
     (void)word;
     read_vector(reader, values, "star", reader->scene->rkpm.dynamic.velocity);
+}
+
+void reader_rkpm_weight(struct reader *reader, const struct deck_word *word, const struct value *values)
+{
+    (void)word;
+    read_vector(reader, values, "weig", reader->scene->rkpm.weight);
 }
 
 void reader_rkpm_gravity(struct reader *reader, const struct deck_word *word, const struct value *values)

@@ -9,6 +9,12 @@ extern const char *const reader_kernel_modes[]; /* by enum kernel_mode, ended by
 
 /* The numbers of `node disc` or `node sphere`, which comes before `dime` or behind it. */
 void reader_lattice(struct reader *reader, int dimension, struct deck_place place);
+
+/* Force per volume of `prob creep`. */
+void reader_rkpm_weight(struct reader *reader, const struct deck_word *word, const struct value *values);
+
+/* node brick: extents of two or three axes, then the spacing. */
+void reader_brick(struct reader *reader, struct deck_place place);
 void reader_start_velocity(struct reader *reader, const struct deck_word *word, const struct value *values);
 void reader_rkpm_gravity(struct reader *reader, const struct deck_word *word, const struct value *values);
 void reader_rkpm_wall(struct reader *reader, const struct deck_word *word, const struct value *values);

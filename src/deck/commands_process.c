@@ -63,7 +63,8 @@ void reader_ghosts(struct reader *reader, const struct deck_word *word, const st
     }
     building->has_ghosts = true;
     building->ghost_place = word->place;
-    reader_needs(reader, word, "nbmp");
+    if (reader->scene->method != METHOD_RKPM) /* its nodes are counted when the whole block is known */
+        reader_needs(reader, word, "nbmp");
     reader_block(reader, ghost_keywords, "endG", "Ghost", NULL);
 }
 
@@ -304,7 +305,7 @@ void reader_hold(struct reader *reader, const struct deck_word *word, const stru
 
 /* --- checks of the whole deck --- */
 
-static void check_ghosts(struct reader *reader)
+void reader_check_ghosts(struct reader *reader)
 {
     const struct scene *scene = reader->scene;
     const struct scene_building *building = &scene->building;
@@ -442,7 +443,7 @@ void reader_finish_process(struct reader *reader)
     const struct scene *scene = reader->scene;
     if (reader->has_bad_part || reader->has_bad_material || diagnostics_errors(reader->diagnostics) > 0)
         return;
-    check_ghosts(reader);
+    reader_check_ghosts(reader);
     for (size_t i = 0; i < scene->n_materials; i++)
         check_transformation(reader, &scene->materials[i]);
     check_scan(reader);

@@ -21,4 +21,7 @@ extern const struct argument reader_residual_arguments[], reader_phase_arguments
 /* Background grid. */
 void reader_hold(struct reader *reader, const struct deck_word *word, const struct value *values);
 
+/* Closed particles that the deck has not, schedules without any. */
+void reader_check_ghosts(struct reader *reader);
+
 #endif

@@ -57,7 +57,7 @@ static void read_support(struct reader *reader, const struct deck_word *word, co
 /* How many numbers there are is looked at when the dimension is known. */
 static void read_nodes(struct reader *reader, const struct deck_word *word, const struct value *values)
 {
-    static const char *const kinds[] = {"box", "disc", "sphere", NULL};
+    static const char *const kinds[] = {"box", "disc", "sphere", "brick", NULL};
     static const struct argument number[] = {NUMBER("number", NULL, LIMIT_NONE), {0}};
     struct scene_rkpm *rkpm = &reader->scene->rkpm;
     struct value value;
@@ -66,7 +66,11 @@ static void read_nodes(struct reader *reader, const struct deck_word *word, cons
     rkpm->dynamic.has_lattice = false;
     const int kind = reader_optional(reader, kinds);
     if (kind < 0) {
-        reader_expect(reader, "node", "'box x0 x1 ... nx ...', 'disc x y radius spacing' or 'sphere x y z radius spacing'");
+        reader_expect(reader, "node", "'box x0 x1 ... nx ...', 'disc x y radius spacing', 'sphere x y z radius spacing' or 'brick x0 x1 ... spacing'");
+        return;
+    }
+    if (kind == 3) {
+        reader_brick(reader, word->place);
         return;
     }
     if (kind > 0) {
@@ -165,7 +169,8 @@ const struct keyword rkpm_keywords[] = {
     {.name = "node", .apply = read_nodes,
      .doc = "`node box x0 x1 [y0 y1 [z0 z1]] nx [ny [nz]]`: a box and the numbers of nodes along its axes, those on its boundary "
             "included; as many axes as dimensions. Of dynamic `node disc x y radius spacing` or `node sphere x y z radius spacing`: the points "
-            "inside of a square or cubic lattice whose centre is between points"},
+            "inside of a square or cubic lattice whose centre is between points; or `node brick x0 x1 y0 y1 [z0 z1] spacing`: a box of whole "
+            "numbers of spacings, the points half a spacing inside of it"},
     {.name = "refi", .long_name = "refine", .arguments = LIST({"nx", NULL, ARGUMENT_INTEGER, LIMIT_COUNT}), .apply = read_refinements,
      .doc = "the problem is solved with each of these numbers of nodes along x, one after another, and those along the other axes in "
             "proportion; the results are those of the last one. Without it once, as `node` says"},
@@ -180,8 +185,8 @@ const struct keyword rkpm_keywords[] = {
      .doc = "the function itself, from its values at the nodes (approx); div grad u + k^2 u = f (helmholtz); div grad u = f (poisson): f and "
             "the values at the boundary are those of the function; displacements of an elastic body (elastic): those at held sides and the "
             "tractions on the others are those of the function; those of a viscoelastic body in time (creep), under a load that changes by "
-            "steps; a body that moves in time (dynamic): with mate, endt and curv. Words that are of dynamic alone: mode, star, spin, grav, wall, "
-            "stab"},
+            "steps; a body that moves in time (dynamic): with mate, endt and curv. Words that are of dynamic alone: mode, star, spin, "
+            "grav, wall, stab. Its nodes may open layer by layer: Ghost, open, build"},
     {.name = "func", .long_name = "function", .arguments = WORD("sine|expo|wave|line|patch|beam|load"), .choice = CHOICE(functions, function),
      .doc = "exact solution: sin x sin y sin z (sine), exp(x y z) (expo), sin k(x1 - x)/sin k(x1 - x0) with the wave number and ends of the box "
             "(wave), 1 + x + 2 y + 3 z (line); y and z as far as there are dimensions. Of elastic: linear displacements (patch); in two "
@@ -204,6 +209,8 @@ const struct keyword rkpm_keywords[] = {
      .doc = "of elastic in two dimensions: no stress (stress, default) or no strain (strain) across the plane"},
     {.name = "forc", .long_name = "force", .arguments = LIST(NUMBER("p", "force/length", LIMIT_NONE)), .field = FIELD(beam_load),
      .doc = "load of func beam along y at its end, per thickness; of func load along the last axis on the high side along x, spread evenly"},
+    {.name = "weig", .long_name = "weight", .arguments = LIST(NUMBER("wx", "force/length^3", LIMIT_NONE), NUMBER("wy", "force/length^3", LIMIT_NONE)),
+     .apply = reader_rkpm_weight, .doc = "`weig wx wy [wz]`: force per volume of creep; it comes and goes with the load, times the factor of `from`"},
     {.name = "held", .apply = read_held,
      .doc = "`held x0 x1 y0 y1 z0 z1`: sides of the box where displacements of elastic are given, as many as there are; the others bear tractions. Without it all"},
     {.name = "pert", .long_name = "perturb", .arguments = LIST(NUMBER("s", "spacings", LIMIT_NOT_NEGATIVE), NUMBER("seed", NULL, LIMIT_NOT_NEGATIVE)),

@@ -423,6 +423,8 @@ void echo_scene(const struct scene *scene, FILE *stream, bool whole)
     if (scene->method == METHOD_RKPM) {
         if (scene_method(scene) == METHOD_DYNAMIC)
             echo_materials(scene, stream);
+        if (scene_method(scene) == METHOD_DYNAMIC)
+            echo_building(scene, stream);
         echo_rkpm(scene, stream);
         echo_output(scene, stream);
         fprintf(stream, "endi\n");

@@ -64,11 +64,24 @@ static void echo_word(const struct scene *scene, const struct keyword *row, FILE
     fputs(is_over_spacing ? " /h\n" : "\n", stream);
 }
 
+static void echo_brick(const struct ball_lattice *lattice, FILE *stream)
+{
+    fprintf(stream, "  node brick");
+    for (int a = 0; a < lattice->dimension; a++) {
+        const double low = lattice_low(lattice, a);
+        echo_numbers(stream, (const double[]){low, low + (double)lattice->numbers[a] * lattice->spacing}, 2);
+    }
+}
+
 static void echo_dynamic(const struct scene_dynamic *dynamic, FILE *stream)
 {
     const struct ball_lattice *lattice = &dynamic->lattice;
-    print_numbers(stream, lattice->dimension == 2 ? "node disc" : "node sphere", lattice->centre, lattice->dimension);
-    echo_numbers(stream, &lattice->radius, 1);
+    if (lattice->numbers[0] > 0)
+        echo_brick(lattice, stream);
+    else {
+        print_numbers(stream, lattice->dimension == 2 ? "node disc" : "node sphere", lattice->centre, lattice->dimension);
+        echo_numbers(stream, &lattice->radius, 1);
+    }
     echo_numbers(stream, &lattice->spacing, 1);
     fputc('\n', stream);
     print_numbers(stream, "star", dynamic->velocity, 3);
@@ -114,6 +127,10 @@ void echo_rkpm(const struct scene *scene, FILE *stream)
     if (rkpm->file)
         fprintf(stream, "  file \"%s\"\n", rkpm->file);
     echo_held(rkpm, stream);
+    if (rkpm->weight[0] != 0 || rkpm->weight[1] != 0 || rkpm->weight[2] != 0) {
+        print_numbers(stream, "weig", rkpm->weight, 3);
+        fputc('\n', stream);
+    }
     echo_pairs("elem", rkpm->elements, rkpm->n_elements, stream);
     echo_pairs("from", rkpm->loads, rkpm->n_loads, stream);
     print_numbers(stream, "supp", rkpm->support, rkpm->n_support);

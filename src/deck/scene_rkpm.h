@@ -67,6 +67,7 @@ struct scene_rkpm {
     double young, poisson; /* consecutive: read as one list */
     enum plane_mode plane;
     double beam_load;     /* of func beam, along y at its free end */
+    double weight[3];     /* force per volume of creep */
     bool held[6];         /* sides where displacements are given: low and high of each axis */
     double elements[RKPM_ELEMENTS][2]; /* of creep: Young's modulus and relaxation time */
     int n_elements;

@@ -2,14 +2,35 @@
 #include "particles/lattice.h"
 
 #include <math.h>
+#include <stdint.h>
 
 static const double PI = 3.14159265358979323846;
 /* Points that are on the rim but for rounding belong to it. */
 static const double RIM = 1e-12;
 
+static bool is_box(const struct ball_lattice *lattice)
+{
+    return lattice->numbers[0] > 0;
+}
+
+static double box_points(const struct ball_lattice *lattice)
+{
+    double count = 1;
+    for (int a = 0; a < lattice->dimension; a++)
+        count *= (double)lattice->numbers[a];
+    return count;
+}
+
+double lattice_low(const struct ball_lattice *lattice, int axis)
+{
+    return lattice->centre[axis] - (is_box(lattice) ? 0.5 * (double)lattice->numbers[axis] * lattice->spacing : lattice->radius);
+}
+
 double lattice_volume(const struct ball_lattice *lattice)
 {
     const double r = lattice->radius;
+    if (is_box(lattice))
+        return box_points(lattice) * pow(lattice->spacing, lattice->dimension);
     return lattice->dimension == 2 ? PI * r * r : 4.0 / 3 * PI * r * r * r;
 }
 
@@ -37,6 +58,8 @@ size_t lattice_count(const struct ball_lattice *lattice, size_t most)
 {
     const long half = half_row(lattice);
     size_t count = 0;
+    if (is_box(lattice))
+        return box_points(lattice) > (double)most ? most + 1 : (size_t)box_points(lattice);
     for (long k = lattice->dimension == 3 ? -half : 0; k < (lattice->dimension == 3 ? half : 1); k++)
         for (long j = -half; j < half; j++) {
             count += 2 * (size_t)half_row_at(lattice, j, k);
@@ -46,10 +69,26 @@ size_t lattice_count(const struct ball_lattice *lattice, size_t most)
     return count;
 }
 
+static void fill_box(const struct ball_lattice *lattice, double *const x[3])
+{
+    const size_t count = lattice_count(lattice, SIZE_MAX - 1);
+    for (size_t p = 0; p < count; p++) {
+        size_t rest = p;
+        for (int a = 0; a < lattice->dimension; a++) {
+            x[a][p] = lattice_low(lattice, a) + lattice->spacing * offset_of((long)(rest % (size_t)lattice->numbers[a]));
+            rest /= (size_t)lattice->numbers[a];
+        }
+    }
+}
+
 void lattice_points(const struct ball_lattice *lattice, double *const x[3])
 {
     const long half = half_row(lattice);
     size_t p = 0;
+    if (is_box(lattice)) {
+        fill_box(lattice, x);
+        return;
+    }
     for (long k = lattice->dimension == 3 ? -half : 0; k < (lattice->dimension == 3 ? half : 1); k++)
         for (long j = -half; j < half; j++) {
             const long row = half_row_at(lattice, j, k);

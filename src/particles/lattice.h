@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Points of a square or cubic lattice in a disc or ball. No point is at the centre: they are half a spacing away from it
- * along each axis, so that they lie alike on all sides. */
+/* Points of a square or cubic lattice in a disc or ball, or in a box of whole numbers of spacings. No point of a disc or ball is at the
+ * centre: they are half a spacing away from it along each axis, so that they lie alike on all sides; those of a box are
+ * half a spacing inside of it. */
 #ifndef PARTICLES_LATTICE_H
 #define PARTICLES_LATTICE_H
 
@@ -10,7 +11,11 @@
 struct ball_lattice {
     int dimension; /* 2: a disc in the plane z = 0; 3: a ball */
     double centre[3], radius, spacing;
+    long numbers[3]; /* of points along the axes of a box, whose `radius` is half its longest side; 0: a disc or ball */
 };
+
+/* The low end along an axis. */
+double lattice_low(const struct ball_lattice *lattice, int axis);
 
 /* Area or volume. */
 double lattice_volume(const struct ball_lattice *lattice);

@@ -30,14 +30,20 @@ struct lattice {
     double spacing, corner[3];
 };
 
+/* The side of a particle's cube, or of its square where volumes are areas. */
+static double side_of(const struct scene *scene, double volume)
+{
+    return scene->method == METHOD_RKPM && scene->rkpm.dimension == 2 ? sqrt(volume) : cbrt(volume);
+}
+
 /* The closed particles' lattice, by the smallest of them; that of all where none is closed. */
-static struct lattice find_lattice(const struct store *store, const struct place *places, size_t count, bool has_closed)
+static struct lattice find_lattice(const struct scene *scene, const struct store *store, const struct place *places, size_t count, bool has_closed)
 {
     struct lattice lattice = {INFINITY, {INFINITY, INFINITY, INFINITY}};
     for (size_t i = 0; i < count; i++) {
         if (has_closed && places[i].is_open)
             continue;
-        lattice.spacing = fmin(lattice.spacing, cbrt(store->real[COLUMN_VOLUME][0][i]));
+        lattice.spacing = fmin(lattice.spacing, side_of(scene, store->real[COLUMN_VOLUME][0][i]));
         for (int a = 0; a < 3; a++)
             lattice.corner[a] = fmin(lattice.corner[a], store->real[COLUMN_POSITION][a][i]);
     }
@@ -202,7 +208,7 @@ struct schedule *schedule_open(const struct scene *scene, struct store *store, s
         places[i].height = store->real[COLUMN_POSITION][scene->building.axis][i];
         has_closed = has_closed || !places[i].is_open;
     }
-    const struct lattice lattice = find_lattice(store, places, count, has_closed);
+    const struct lattice lattice = find_lattice(scene, store, places, count, has_closed);
     find_layers(scene, places, count, lattice.spacing);
     if (store_has(store, COLUMN_LAYER))
         for (size_t i = 0; i < count; i++)

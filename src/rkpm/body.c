@@ -304,6 +304,20 @@ void body_load(const struct body *body, struct moduli moduli, double *right)
     }
 }
 
+void body_add_weight(const struct body *body, const double weight[3], double *right)
+{
+    const struct points *points = &body->inside;
+    const size_t d = (size_t)body->dimension;
+    for (size_t row = 0; row < body->nodes; row++) {
+        const size_t node = (size_t)body->node[row];
+        double volume = 0;
+        for (size_t u = points->first_use[node]; u < points->first_use[node + 1]; u++)
+            volume += points_weight(points, points->use[u] / (size_t)points->stride, 0) * points->value[points->use[u]];
+        for (size_t a = 0; a < d; a++)
+            right[row * d + a] += volume * weight[a];
+    }
+}
+
 void body_subtract_forces(const struct body *body, const double *stress, double *right)
 {
     const struct points *points = &body->inside;

@@ -54,6 +54,9 @@ void body_assemble(struct body *body, struct moduli moduli);
 /* Right side, D numbers per row: tractions that are given, what Nitsche's method or the penalty adds for displacements. */
 void body_load(const struct body *body, struct moduli moduli, double *right);
 
+/* right += sum of w N weight: a force per volume, the same everywhere. */
+void body_add_weight(const struct body *body, const double weight[3], double *right);
+
 /* right -= sum of w T^T stress; stress: per point and row of `inside` D x D numbers. */
 void body_subtract_forces(const struct body *body, const double *stress, double *right);
 

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Bisectors with nodes up to so many spacings away can bound a cell; an edge shorter than this part of the spacing is none. */
+/* Bisectors with nodes up to so many spacings away bound most cells; an edge shorter than this part of the spacing is none. */
 static const double REACH = 3, LEAST_EDGE = 1e-9;
 enum { CORNERS = 64 };
 
@@ -46,25 +46,47 @@ static void clip(struct polygon *polygon, const double node[2], const double oth
     *polygon = kept;
 }
 
-static struct polygon cell_polygon(const struct search *search, const struct node_box *box, const double low[2], const double high[2],
-                                   double *const x[3], size_t node)
+/* Cut by the bisectors with all nodes within a number of reaches. */
+static struct polygon cut_within(const struct search *search, const struct node_box *box, const double low[2], const double high[2],
+                                 double *const x[3], size_t node, double reaches)
 {
     const double middle[3] = {x[0][node], x[1][node], 0};
     struct polygon polygon = whole_box(low, high);
     int from[3], to[3], cell[3] = {0};
-    search_range(search, middle, 1, from, to);
+    search_range(search, middle, reaches, from, to);
     for (cell[1] = from[1]; cell[1] <= to[1]; cell[1]++)
         for (cell[0] = from[0]; cell[0] <= to[0]; cell[0]++) {
             const size_t c = search_cell(search, cell);
             for (int32_t k = search->first[c]; k < search->first[c + 1]; k++) {
                 const int32_t other = search->node[k];
                 const double place[2] = {x[0][other], x[1][other]};
-                if ((size_t)other != node && fabs(place[0] - middle[0]) <= REACH * box->spacing[0] &&
-                    fabs(place[1] - middle[1]) <= REACH * box->spacing[1])
+                if ((size_t)other != node && fabs(place[0] - middle[0]) <= reaches * REACH * box->spacing[0] &&
+                    fabs(place[1] - middle[1]) <= reaches * REACH * box->spacing[1])
                     clip(&polygon, middle, place);
             }
         }
     return polygon;
+}
+
+static double farthest_corner(const struct polygon *polygon, const double middle[2])
+{
+    double farthest = 0;
+    for (int i = 0; i < polygon->count; i++)
+        farthest = fmax(farthest, hypot(polygon->x[i][0] - middle[0], polygon->x[i][1] - middle[1]));
+    return farthest;
+}
+
+/* A node as far as twice the farthest corner could still cut it: beside holes between nodes more of them are looked at. */
+static struct polygon cell_polygon(const struct search *search, const struct node_box *box, const double low[2], const double high[2],
+                                   double *const x[3], size_t node)
+{
+    const double middle[2] = {x[0][node], x[1][node]}, reach = REACH * fmin(box->spacing[0], box->spacing[1]);
+    const double whole = hypot(high[0] - low[0], high[1] - low[1]);
+    for (double reaches = 1;; reaches *= 2) {
+        const struct polygon polygon = cut_within(search, box, low, high, x, node, reaches);
+        if (2 * farthest_corner(&polygon, middle) <= reaches * reach || reaches * reach >= whole)
+            return polygon;
+    }
 }
 
 /* --- faces, volumes and moments --- */

@@ -53,6 +53,7 @@ void creep_open(struct creep *creep, const struct scene_rkpm *words, struct body
     creep->strain = memory_array(points * d * d, sizeof(double), "stresses");
     creep->stress = memory_array(points * d * d, sizeof(double), "stresses");
     body_load(body, (struct moduli){0}, creep->force);
+    body_add_weight(body, words->weight, creep->force);
 }
 
 void creep_close(struct creep *creep)

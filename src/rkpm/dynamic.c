@@ -10,6 +10,8 @@
 
 /* A body squeezed to less than this part of its volume is no body any more (spec 7). */
 static const double LEAST_RATIO = 0.05;
+/* Energy that nothing gave. */
+static const double MOST_ENERGY = 2;
 /* A step below this fraction of the first one is a slow blow-up. */
 static const double LEAST_STEP_FRACTION = 1e-6;
 
@@ -22,6 +24,50 @@ static void stop(struct dynamic *dynamic, const char *advice)
     snprintf(dynamic->instability.advice, sizeof dynamic->instability.advice, "%s", advice);
 }
 
+static double energy_of(const struct dynamic_sums *sums)
+{
+    return sums->kinetic + sums->internal + sums->wall_energy;
+}
+
+double rkpm_dynamic_given(const struct dynamic *dynamic)
+{
+    const double *gravity = dynamic->words->dynamic.gravity;
+    double work = 0;
+    for (int a = 0; a < dynamic->dimension; a++)
+        work += dynamic->mass * (double)dynamic->count * gravity[a] * (dynamic->sums.centre[a] - dynamic->start_centre[a]);
+    return dynamic->start_energy + fmax(work, 0);
+}
+
+/* Energy over what was given; 1 without any. */
+static double energy_ratio(const struct dynamic *dynamic)
+{
+    const double given = rkpm_dynamic_given(dynamic);
+    return given > 0 ? energy_of(&dynamic->sums) / given : 1;
+}
+
+static long fastest_node(const struct dynamic *dynamic)
+{
+    double most = -1;
+    long fastest = -1;
+    for (size_t n = 0; n < dynamic->count; n++) {
+        double square = 0;
+        for (int a = 0; a < dynamic->dimension; a++)
+            square += dynamic->velocity[a][n] * dynamic->velocity[a][n];
+        if (square > most) {
+            most = square;
+            fastest = (long)n;
+        }
+    }
+    return fastest;
+}
+
+void rkpm_dynamic_start(struct dynamic *dynamic)
+{
+    dynamic->start_energy = energy_of(&dynamic->sums);
+    for (int a = 0; a < 3; a++)
+        dynamic->start_centre[a] = dynamic->sums.centre[a];
+}
+
 static void check(struct dynamic *dynamic)
 {
     const struct scene *scene = dynamic->scene;
@@ -29,12 +75,19 @@ static void check(struct dynamic *dynamic)
     char *cause = dynamic->instability.cause;
     const size_t size = sizeof dynamic->instability.cause;
     dynamic->instability = (struct instability){.particle = -1};
-    if (!dynamic->sums.is_finite) {
-        snprintf(cause, size, "a value is not finite");
-        stop(dynamic, "try a smaller dtfx, or leave it out");
-    } else if (dynamic->sums.least_ratio < LEAST_RATIO) {
+    if (dynamic->sums.least_ratio < LEAST_RATIO) {
+        dynamic->sums.bad_node = dynamic->sums.least_node;
         snprintf(cause, size, "the volume of a node is %.3g of that at the start", dynamic->sums.least_ratio);
-        stop(dynamic, scene->fixed_step > 0 ? "try a smaller dtfx, a softer wall, or inte nsni" : "try a softer wall, or inte nsni");
+        stop(dynamic, dynamic->words->integration == INTEGRATION_NSNI ? "try a softer wall, a stiffer material, or a smaller dtfx"
+                      : scene->fixed_step > 0                         ? "try a smaller dtfx, a softer wall, or inte nsni"
+                                                                      : "try a softer wall, or inte nsni");
+    } else if (!dynamic->sums.is_finite) {
+        snprintf(cause, size, "a value is not finite");
+        stop(dynamic, scene->fixed_step > 0 ? "try a smaller dtfx, or leave it out" : "look at jmin and fewn, and at the numbers of the material");
+    } else if (energy_ratio(dynamic) > MOST_ENERGY) {
+        dynamic->sums.bad_node = fastest_node(dynamic);
+        snprintf(cause, size, "energy grows: %.3g times what motion and gravity gave", energy_ratio(dynamic));
+        stop(dynamic, scene->fixed_step > 0 ? "try a smaller dtfx, or leave it out" : "look at fewn, and at the numbers of the material");
     } else if (dynamic->time_step < least && dynamic->time + dynamic->time_step <= scene->end_time) {
         snprintf(cause, size, "the time step fell to %.3g, %.3g of the first one", dynamic->time_step, dynamic->time_step / dynamic->first_time_step);
         stop(dynamic, "look at jmin, and at the numbers of the material");
@@ -80,6 +133,7 @@ static void finish_velocities(struct dynamic *dynamic)
 struct instability rkpm_dynamic_advance(struct dynamic *dynamic)
 {
     timers_enter(dynamic->timers, PHASE_MOVE);
+    rkpm_dynamic_layers(dynamic);
     rkpm_dynamic_move(dynamic);
     if (dynamic->is_semi)
         rkpm_dynamic_follow(dynamic);
@@ -112,6 +166,7 @@ static const struct {
     size_t offset, size;
 } fields[] = {
     FIELD(step), FIELD(time), FIELD(time_step), FIELD(first_time_step), FIELD(updates), FIELD(sums), FIELD(fixed.is_released), FIELD(fixed.is_left_out),
+    FIELD(start_energy), FIELD(start_centre),
 };
 
 /* Whether nodes that were read can be: numbers, and volumes that are more than nothing. */
@@ -133,6 +188,7 @@ void rkpm_dynamic_exchange(struct dynamic *dynamic, struct checkpoint *checkpoin
     const size_t all = dynamic->store->count, terms = all * (size_t)(dynamic->dimension * dynamic->gradient_terms);
     for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
         checkpoint_item(checkpoint, fields[i].name, (char *)dynamic + fields[i].offset, fields[i].size, 1);
+    rkpm_dynamic_layers_exchange(dynamic, checkpoint);
     store_exchange(dynamic->store, checkpoint, 1);
     for (int a = 0; a < dynamic->dimension; a++) {
         checkpoint_item(checkpoint, "coefficient", dynamic->coefficient[a], sizeof(double), dynamic->count);

@@ -8,6 +8,7 @@
  *     2. strain, volume and stress of nodes, and what of them goes into forces           (rkpm_dynamic_strain)
  *     3. forces on coefficients, of the inside and of the wall; accelerations            (rkpm_dynamic_forces)
  *     4. velocities to the end of the step; sums
+ * Before it nodes may open                                                                (rkpm_dynamic_layers)
  * Vectors of nodes are stored node by node where many nodes read them. Sums over neighbours go in the order of nodes, so
  * that they don't depend on the number of threads. */
 #ifndef RKPM_DYNAMIC_H
@@ -19,6 +20,7 @@
 #include "rkpm/nodal.h"
 
 struct checkpoint;
+struct schedule;
 
 enum { DYNAMIC_FEW_NODES = 1000 }; /* below these one thread is faster */
 
@@ -31,7 +33,8 @@ struct dynamic_sums {
     double least_ratio, most_ratio; /* J */
     double wall_force;
     long few_neighbours;         /* points with too few neighbours, those of a wall that carries nothing left out */
-    long bad_node;               /* the first one with J too small or a value that is not finite; -1: none */
+    long least_node;             /* that of least_ratio */
+    long bad_node;               /* the first one with a value that is not finite; else least_node */
     bool is_finite;
 };
 
@@ -63,7 +66,9 @@ struct dynamic {
     struct store *store;       /* places, velocities, stresses of nodes as output sees them */
     int dimension;
     bool is_semi;
-    size_t count;              /* of the body */
+    size_t count;              /* of the body, as far as they are open */
+    struct schedule *schedule; /* of nodes that open, or NULL: all are */
+    size_t open_at_start;
     size_t nodes;              /* that have rows: those of the body, and of a wall near it */
     int32_t *slot;             /* per node with rows: its place in the store */
     struct dynamic_fixed fixed;
@@ -87,6 +92,7 @@ struct dynamic {
     long step;
     double time, time_step, first_time_step;
     double updates;
+    double start_energy, start_centre[3]; /* what the check of energies starts from */
     struct dynamic_sums sums;
     struct instability instability;
 };
@@ -99,6 +105,13 @@ struct instability rkpm_dynamic_advance(struct dynamic *dynamic);
 void rkpm_dynamic_exchange(struct dynamic *dynamic, struct checkpoint *checkpoint);
 
 /* --- parts --- */
+
+/* Nodes that open: their order, those of the next step, their number in a checkpoint, how many are still closed. */
+void rkpm_dynamic_layers_open(struct dynamic *dynamic);
+void rkpm_dynamic_layers_close(struct dynamic *dynamic);
+void rkpm_dynamic_layers(struct dynamic *dynamic);
+void rkpm_dynamic_layers_exchange(struct dynamic *dynamic, struct checkpoint *checkpoint);
+size_t rkpm_dynamic_closed(const struct dynamic *dynamic);
 
 /* Lists of pairs by coefficient, from the rows as they are; with a copy of the gradients where these stay. */
 void rkpm_dynamic_pairs(struct dynamic *dynamic);
@@ -118,13 +131,23 @@ void rkpm_dynamic_forces(struct dynamic *dynamic);
 /* Places and velocities of nodes, from those of coefficients. */
 void rkpm_dynamic_places(struct dynamic *dynamic);
 
+/* Force over depth of a node in the wall's springs: pressure over depth times the face of a node. */
+double rkpm_dynamic_stiffness(const struct dynamic *dynamic);
+
 /* Force of the wall's springs per node, from places; velocities along the wall of nodes that stick to it are taken out. */
 void rkpm_dynamic_wall(struct dynamic *dynamic);
 void rkpm_dynamic_hold(struct dynamic *dynamic);
 
 void rkpm_dynamic_sum(struct dynamic *dynamic);
 
-/* What the next step is, by dtfx or by the wave that crosses the spacing of the most compressed node (spec 7). */
+/* Keeps the energy and the centre of the start. */
+void rkpm_dynamic_start(struct dynamic *dynamic);
+
+/* What energy motion at the start and gravity have given up to now. */
+double rkpm_dynamic_given(const struct dynamic *dynamic);
+
+/* What the next step is, by dtfx or by the wave that crosses the spacing of the most compressed node (spec 7), or less where nodes
+ * meet a wall fast, or strain fast. */
 double rkpm_dynamic_limit(const struct dynamic *dynamic);
 
 #endif

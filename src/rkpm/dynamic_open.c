@@ -96,7 +96,7 @@ static void start_motion(struct dynamic *dynamic)
 {
     const struct scene_dynamic *words = &dynamic->words->dynamic;
     const double *centre = words->lattice.centre;
-    for (size_t n = 0; n < dynamic->count; n++) {
+    for (size_t n = 0; n < dynamic->store->count - dynamic->fixed.count; n++) {
         const double arm[3] = {dynamic->rest[0][n] - centre[0], dynamic->rest[1][n] - centre[1], 0};
         const double turning[3] = {-words->spin * arm[1], words->spin * arm[0], 0};
         for (int a = 0; a < dynamic->dimension; a++) {
@@ -168,6 +168,7 @@ struct dynamic *rkpm_dynamic_open(const struct scene *scene, struct timers *time
     dynamic->stabilisation = given >= 0 ? given : dynamic->material->law->stabilisation;
     create_nodes(dynamic);
     create_store(dynamic);
+    rkpm_dynamic_layers_open(dynamic);
     open_rows(dynamic);
     create_work(dynamic);
     start_motion(dynamic);
@@ -175,6 +176,7 @@ struct dynamic *rkpm_dynamic_open(const struct scene *scene, struct timers *time
     rkpm_dynamic_places(dynamic);
     rkpm_dynamic_forces(dynamic);
     rkpm_dynamic_sum(dynamic);
+    rkpm_dynamic_start(dynamic);
     dynamic->first_time_step = dynamic->time_step = rkpm_dynamic_limit(dynamic);
     return dynamic;
 }
@@ -197,6 +199,7 @@ void rkpm_dynamic_close(struct dynamic *dynamic)
                               dynamic->load,            dynamic->gradient_stress};
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
         memory_free(arrays[i]);
+    rkpm_dynamic_layers_close(dynamic);
     rkpm_nodal_close(&dynamic->nodal);
     memory_free(dynamic->slot);
     memory_free(dynamic->fixed.is_active);

@@ -72,6 +72,20 @@ static void check_end(struct dynamic *dynamic, const double low[3], const double
     }
 }
 
+/* Behind the last fixed nodes nothing holds a node any more. */
+static void check_through(struct dynamic *dynamic)
+{
+    const int axis = dynamic->words->dynamic.wall_axis;
+    for (size_t n = 0; n < dynamic->count && !dynamic->instability.is_stopped; n++) {
+        const double below = dynamic->words->dynamic.wall_position - dynamic->coefficient[axis][n];
+        if (dynamic->coefficient[axis][n] >= dynamic->fixed.low[axis])
+            continue;
+        dynamic->instability = (struct instability){.is_stopped = true, .particle = (long)n};
+        snprintf(dynamic->instability.cause, sizeof dynamic->instability.cause, "a node went through the wall, %.3g below it", below);
+        snprintf(dynamic->instability.advice, sizeof dynamic->instability.advice, "the body is too soft for its speed: take a smaller spacing, or wall spring");
+    }
+}
+
 /* Fixed nodes within two supports of the body's box take part: those within one support have it as a neighbour, and they need
  * their own neighbours. */
 static void choose_fixed(struct dynamic *dynamic)
@@ -91,6 +105,7 @@ static void choose_fixed(struct dynamic *dynamic)
     if (!is_near)
         return;
     check_end(dynamic, low, high);
+    check_through(dynamic);
     for (size_t slot = dynamic->count; slot < dynamic->store->count; slot++) {
         bool is_in = true;
         for (int a = 0; a < dynamic->dimension; a++)

@@ -65,13 +65,13 @@ static void sum_nodes(const struct dynamic *dynamic, struct dynamic_sums *sums)
     sums->least_ratio = least / dynamic->volume;
     sums->most_ratio = most / dynamic->volume;
     sums->is_finite = not_finite < 0;
+    sums->least_node = worst;
     sums->bad_node = not_finite < 0 ? worst : not_finite;
 }
 
 static void sum_wall(const struct dynamic *dynamic, struct dynamic_sums *sums)
 {
-    const double face = dynamic->dimension == 2 ? dynamic->spacing : dynamic->spacing * dynamic->spacing;
-    const double stiffness = dynamic->words->dynamic.wall_modulus * face;
+    const double stiffness = rkpm_dynamic_stiffness(dynamic);
     sums->wall_force = sums->wall_energy = 0;
     for (size_t n = dynamic->count; n < dynamic->nodes; n++)
         sums->wall_force += dynamic->wall_force[n];
@@ -103,6 +103,8 @@ void rkpm_dynamic_sum(struct dynamic *dynamic)
 
 /* Parts of the time in which a wave crosses the spacing, or a shear spreads over it (spec 7). */
 static const double COURANT = 0.5, DIFFUSION = 0.125;
+/* Parts of a spacing that a node comes nearer to a wall in a step, of a radian that its springs swing in it; strain of a step. */
+static const double APPROACH = 0.25, SWING = 0.5, STRAIN = 0.1;
 
 /* The least stretch of a plane deformation, its smaller singular value. */
 static double least_stretch_2(double a, double b, double c, double d)
@@ -145,11 +147,38 @@ static double least_stretch(const struct dynamic *dynamic)
     return least;
 }
 
+/* A wall is met within spacings, however fast nodes come; its springs swing. */
+static double wall_limit(const struct dynamic *dynamic)
+{
+    const struct scene_dynamic *words = &dynamic->words->dynamic;
+    double fastest = 0;
+    if (words->wall == RKPM_WALL_NONE)
+        return DBL_MAX;
+    for (size_t n = 0; n < dynamic->count; n++)
+        fastest = fmax(fastest, fabs(dynamic->velocity[words->wall_axis][n]));
+    const double met = fastest > 0 ? APPROACH * dynamic->spacing / fastest : DBL_MAX;
+    return words->wall == RKPM_WALL_SPRING ? fmin(met, SWING * sqrt(dynamic->mass / rkpm_dynamic_stiffness(dynamic))) : met;
+}
+
+/* Strains and turns of a step are small, however fast they come: as much of those of the last one as fits in; at the start the spin. */
+static double strain_limit(const struct dynamic *dynamic)
+{
+    const double spin = fabs(dynamic->words->dynamic.spin);
+    double most = 0;
+    if (dynamic->step == 0)
+        return spin > 0 ? STRAIN / spin : DBL_MAX;
+    for (int a = 0; a < 6; a++)
+        for (size_t n = 0; n < dynamic->count; n++)
+            most = fmax(most, fabs(a < 3 ? fmax(fabs(dynamic->strain[a][n]), fabs(dynamic->spin[a][n])) : dynamic->strain[a][n]));
+    return most > 0 ? STRAIN / most * dynamic->time_step : DBL_MAX;
+}
+
 double rkpm_dynamic_limit(const struct dynamic *dynamic)
 {
     const struct material *material = dynamic->material;
     if (dynamic->scene->fixed_step > 0)
         return dynamic->scene->fixed_step;
     const double length = least_stretch(dynamic) * dynamic->spacing, wave = COURANT * length / material->wave_speed;
-    return material->viscosity > 0 ? fmin(wave, DIFFUSION * length * length * material->density / material->viscosity) : wave;
+    const double motion = fmin(wall_limit(dynamic), strain_limit(dynamic)), least = fmin(wave, motion);
+    return material->viscosity > 0 ? fmin(least, DIFFUSION * length * length * material->density / material->viscosity) : least;
 }

@@ -13,15 +13,14 @@ static double depth(const struct dynamic *dynamic, size_t node)
     return words->wall_position + 0.5 * dynamic->spacing - dynamic->coefficient[words->wall_axis][node];
 }
 
-/* Pressure over depth times the face of a node. */
-static double stiffness(const struct dynamic *dynamic)
+double rkpm_dynamic_stiffness(const struct dynamic *dynamic)
 {
     return dynamic->words->dynamic.wall_modulus * (dynamic->dimension == 2 ? dynamic->spacing : dynamic->spacing * dynamic->spacing);
 }
 
 void rkpm_dynamic_wall(struct dynamic *dynamic)
 {
-    const double k = stiffness(dynamic);
+    const double k = rkpm_dynamic_stiffness(dynamic);
     for (size_t n = 0; n < dynamic->count && dynamic->words->dynamic.wall == RKPM_WALL_SPRING; n++)
         dynamic->wall_force[n] = k * fmax(depth(dynamic, n), 0);
 }

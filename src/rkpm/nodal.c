@@ -90,6 +90,20 @@ THREADS_INLINE void set_second_rows(const struct nodal *nodal, size_t node, int 
     }
 }
 
+/* Shape functions at a point near a node, with the least support that has enough neighbours, up to the node's: they follow from the
+ * point alone, so that cells on both sides of a face have the same. False where there are too few. */
+THREADS_INLINE bool find_at(const struct nodal *nodal, size_t node, const double point[AXES], int n, bool has_slopes, struct nodal_scratch *scratch,
+                            struct polynomials *polynomials, double *values, const int d)
+{
+    for (double reach = 1;; reach *= MOMENTS_ENLARGEMENT) {
+        set_kernels(nodal, point, reach, n, has_slopes, scratch, d);
+        if (find_values(nodal, scratch, n, polynomials, values, d))
+            return true;
+        if (!(reach < nodal->reach[node]))
+            return false;
+    }
+}
+
 /* dni and nsni: gradients at the node itself; of nsni their derivatives too, and of nsni with scni only those. */
 THREADS_INLINE bool set_rows_at_node(const struct nodal *nodal, size_t node, int n, struct nodal_scratch *scratch, const int d)
 {
@@ -99,8 +113,7 @@ THREADS_INLINE bool set_rows_at_node(const struct nodal *nodal, size_t node, int
     double middle[AXES] = {0}, b[TERMS];
     for (int a = 0; a < d; a++)
         middle[a] = nodal->x[a][node];
-    set_kernels(nodal, middle, nodal->reach[node], n, is_direct || has_second, scratch, d);
-    if (!find_values(nodal, scratch, n, &polynomials, nodal->value + node * (size_t)nodal->stride, d))
+    if (!find_at(nodal, node, middle, n, is_direct || has_second, scratch, &polynomials, nodal->value + node * (size_t)nodal->stride, d))
         return false;
     for (int a = 0; a < d && (is_direct || has_second); a++)
         sum_moments(scratch, scratch->slope[a], n, &polynomials.slope[a][0][0], TERMS, d);
@@ -119,18 +132,16 @@ THREADS_INLINE bool set_rows_at_node(const struct nodal *nodal, size_t node, int
 /* snni: differences between the middles of opposite faces of a square or cube around the node, which is not cut at the boundary. */
 THREADS_INLINE bool set_rows_of_box(const struct nodal *nodal, size_t node, int n, struct nodal_scratch *scratch, const int d)
 {
-    const double half = half_side(nodal->volume[node], d), reach = nodal->reach[node];
+    const double half = half_side(nodal->volume[node], d);
     struct polynomials polynomials;
     double point[AXES] = {0};
     for (int a = 0; a < d; a++)
         point[a] = nodal->x[a][node];
-    set_kernels(nodal, point, reach, n, false, scratch, d);
-    bool good = find_values(nodal, scratch, n, &polynomials, nodal->value + node * (size_t)nodal->stride, d);
+    bool good = find_at(nodal, node, point, n, false, scratch, &polynomials, nodal->value + node * (size_t)nodal->stride, d);
     for (int a = 0; a < d; a++) {
         for (int side = 0; side < 2; side++) {
             point[a] = nodal->x[a][node] + (side == 0 ? -half : half);
-            set_kernels(nodal, point, reach, n, false, scratch, d);
-            good = find_values(nodal, scratch, n, &polynomials, scratch->value[side], d) && good;
+            good = find_at(nodal, node, point, n, false, scratch, &polynomials, scratch->value[side], d) && good;
         }
         point[a] = nodal->x[a][node];
         double *restrict gradient = row_of(nodal, node, 0, a);
@@ -145,8 +156,7 @@ THREADS_INLINE bool add_values(const struct nodal *nodal, size_t node, int n, in
                                double factor, struct nodal_scratch *scratch, const int d)
 {
     struct polynomials polynomials;
-    set_kernels(nodal, point, nodal->reach[node], n, false, scratch, d);
-    const bool good = find_values(nodal, scratch, n, &polynomials, scratch->value[0], d);
+    const bool good = find_at(nodal, node, point, n, false, scratch, &polynomials, scratch->value[0], d);
     for (int a = 0; a < d; a++) {
         double *restrict gradient = row_of(nodal, node, row, a);
         for (int k = 0; k < n; k++)

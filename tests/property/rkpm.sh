@@ -53,4 +53,24 @@ touches contact_2mm
 # after 0.045 the wall has let go: no force at all, though the supports still reach it
 "$build/tecstat" one/job_curv.dat --where Time 0.045 1 absmax wall |
     awk '{ if ($1 == 0) print "ok the wall has let go"; else { print "FAIL the wall has not let go: " $1; exit 1 } }' || failed=1
+
+# Layers: the second is there from the first step on, the third opens in step 21; restart before and after it.
+sed 's/^endt.*/endt 0.0015/; s/^outtime.*/outt 5e-4/; s/^open.*/open layer every 20/' "$here/../decks/rkpm/deposition.mpm" >whole.mpm
+rm -rf one
+cp whole.mpm job.mpm
+"$build/mpm3d" --quiet --threads 1 -o one job.mpm || { echo "FAIL deposition: exit status $?"; failed=1; }
+touches deposition
+for threads in 2 5; do
+    "$build/mpm3d" --quiet --threads $threads -o many job.mpm
+    same "deposition with $threads threads" one many
+done
+for time in 3e-4 9e-4; do
+    sed "s/^endt.*/endt $time/; s/^endi/rest every 100000 steps\nendi/" whole.mpm >job.mpm
+    rm -rf part
+    "$build/mpm3d" --quiet -o part job.mpm
+    cp whole.mpm job.mpm
+    "$build/mpm3d" --quiet --restart part/job.rest job.mpm
+    same "deposition: restart at $time" one part
+done
+grep -c . one/job_anim.dat | awk '{ if ($1 == 2 + 3 * 1 + 32 + 64 + 96) print "ok layers opened"; else { print "FAIL layers did not open: " $1; exit 1 } }' || failed=1
 exit $failed

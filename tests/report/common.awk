@@ -22,9 +22,16 @@ function sph_head(title, bodies, points, more) {
     printf "sph\ndime 2\n%s\n%s\nends\n", words, more
 }
 
+# The first lines of a deck of reproducing kernel particles, up to the plane in their block; `more` stands before it.
+function rkpm_head(title, more) {
+    printf "mpm3d %s, %s, %d cells\nmeth rkpm\ndigits 12\n%s\nrkpm\ndime 2\n", title, scheme, cells, more
+}
+
 function absolute(x) { return x < 0 ? -x : x }
 
-# Reads a Tecplot file: n rows of the present zone in value[row, name], those of the first zone in first[row, name].
+# Reads a Tecplot file: n rows of the present zone in value[row, name], those of the first zone in first[row, name]. A file
+# without zones, of a row a step or problem, is one zone.
+what == "measure" && FNR == 1 && /^VARIABLES/ { zones = 1 }
 what == "measure" && /^VARIABLES/ {
     n_names = split($0, part, "\"")
     for (i = 2; i <= n_names; i += 2) name[i / 2] = part[i]
@@ -38,7 +45,7 @@ what == "measure" && /^ZONE/ {
     time += 0
     next
 }
-what == "measure" && zones > 0 && NF > 3 {
+what == "measure" && zones > 0 && NF > 2 {
     n++
     for (i = 1; i <= NF; i++) {
         value[n, name[i]] = $i

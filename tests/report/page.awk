@@ -168,7 +168,8 @@ END {
     printf "<p>%s on %s: %d runs of size <i>%s</i> in %d s, one after another on one thread. ", version, machine, rows, size, seconds_all
     print "Errors are relative to the answer that stands with each case. Run time is the whole run with reading and output, in"
     print "steps of a millisecond (less counts as one), the least of three where it is below 0.1 s; memory is that of particles and grid; a particle-step is one step of one"
-    print "particle, for the static method (quas) one application of the stiffness to it. The front of Pareto joins the runs that no"
+    print "particle, for the static method (quas) one application of the stiffness to it, of reproducing kernel particles a step or a"
+    print "problem of one node; their memory is that of nodes and the matrix. The front of Pareto joins the runs that no"
     print "other run of the case beats in both error and time (bold in the tables). The same numbers stand in"
     print "<a href=table.txt>table.txt</a>. An order there is that from the next coarser run to this one, a fit that of the line through this"
     print "and all coarser ones.</p><ul>"

@@ -35,19 +35,29 @@ case_program() {
 
 # The value measured of the run just done, or nan.
 measure() {
-    if [ "$measured" = measure ]; then
-        case_program measure $assignments -f "$here/common.awk" -f "$here/$program.awk" "$work/${job}_anim.dat"
-        return
-    fi
+    case $measured in measure*)
+        ending=${measured#measure} ending=${ending# }
+        case $program+$scheme in *+rkpm* | rkpm_*) ;; *) ending= ;; esac # material points beside them write none such
+        case_program measure $assignments -f "$here/common.awk" -f "$here/$program.awk" "$work/$job${ending:-_anim.dat}"
+        return ;;
+    esac
     set -- $measured
     ending=$1; shift
     for word in "$@"; do shift; set -- "$@" "$(echo "$word" | tr '~' ' ')"; done
     "$build/tecstat" "$work/$job$ending" "$@"
 }
 
-# Seconds, particle-steps (of quas: applications of the stiffness to the particles) and bytes, from the log of the run.
+# Seconds, particle-steps (of quas: applications of the stiffness to the particles; of reproducing kernel particles nodes times
+# problems or steps) and bytes (of those: columns and matrix), from the log of the run.
 read_log() {
     awk '/bytes per particle/ { bytes = $2 }
+        /^[0-9]+ nodes[:,]/ { particles = $1 }
+        / matrix of [0-9]+ bytes/ { line = $0; sub(/.* matrix of /, "", line); matrix = line + 0 }
+        /^columns in use/ { is_column = particles > 0; next }
+        is_column && NF == 3 { columns += $3 }
+        NF != 3 { is_column = 0 }
+        /^finished after/ { steps = $3 }
+        /^finished at step/ { steps = $4 + 0 }
         / particles in .* bodies/ && !particles { particles = $1 }
         $1 == "total" && NF > 5 { seconds = $2 }
         /the stiffness was applied/ { applied = $5 }
@@ -55,7 +65,7 @@ read_log() {
         / DT=/ { line = $0; sub(/.*DT= */, "", line); split(line, part, " "); step = part[1] }
         END {
             if (seconds < 0.001) seconds = 0.001
-            printf "%s %.0f %.0f %s\n", seconds, particles * (applied ? applied : steps), particles * bytes, step ? step : 0
+            printf "%s %.0f %.0f %s\n", seconds, particles * (applied ? applied : steps), particles * bytes + columns + matrix, step ? step : 0
         }' "$work/$job.out"
 }
 
@@ -76,7 +86,7 @@ one_run() {
     step=${numbers##* }
     [ "$status" -eq 0 ] && found=$(measure 2>>"$work/$job.said")
     echo "$case_name $scheme $cells $dtsc $status ${found:-nan} ${numbers% *}" | tee -a "$runs"
-    rm -f "$work/${job}_anim.dat" "$work/${job}_energy.dat" "$work/${job}_momentum.dat" "$work/${job}_curv.dat"
+    rm -f "$work/${job}_anim.dat" "$work/${job}_energy.dat" "$work/${job}_momentum.dat" "$work/${job}_curv.dat" "$work/${job}_error.dat"
 }
 
 : >"$runs"
@@ -93,7 +103,7 @@ while IFS='|' read -r name program schemes steps sizes measured answer good_to <
             words=$(words_of "$scheme") || exit 4
             for dtsc in $steps; do
                 one_run
-                case +$scheme+ in *+quas+*) break ;; esac # has no time step
+                case +$scheme+ in *+quas+* | *+rkpm+*) break ;; esac # have no dtsc
             done
         done
     done

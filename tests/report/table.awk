@@ -43,7 +43,7 @@ END {
         is_finest = kind ~ /^self/ && v[3] == holder[v[1]]
         if (v[6] == "nan" || exact == "nan" || is_finest) error = "nan"
         else error = kind == "error" ? sprintf("%.4e", v[6]) : error_of(v[6] + 0, exact + 0)
-        dtsc = v[2] ~ /(^|\+)quas(\+|$)/ ? "-" : v[4]
+        dtsc = v[2] ~ /(^|\+)(quas|rkpm)(\+|$)/ ? "-" : v[4]
         line[r] = v[1] " " v[2] " " v[3] " " dtsc " " error " " v[7] " " v[8] " " v[9] " " v[5] " " v[6] " " exact
         series[r] = v[1] " " v[2] " " dtsc; cells[r] = v[3] + 0
         counts[r] = v[5] == 0 && error != "nan" && error + 0 > good_to[v[1]]

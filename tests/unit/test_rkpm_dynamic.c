@@ -16,11 +16,11 @@ static void test_lattice(void)
     } rows[] = {{2, 0.002, 80}, {2, 0.001, 316}, {2, 0.0005, 1264}, {3, 0.002, 552}, {3, 0.001, 4224}}; /* spec 11.4 and 12 */
     char name[60];
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        const struct ball_lattice lattice = {rows[i].dimension, {1, 2, 3}, 0.01, rows[i].spacing};
+        const struct ball_lattice lattice = {.dimension = rows[i].dimension, .centre = {1, 2, 3}, .radius = 0.01, .spacing = rows[i].spacing};
         snprintf(name, sizeof name, "lattice: %zu points", rows[i].count);
         check_true(name, lattice_count(&lattice, 1000000) == rows[i].count);
     }
-    const struct ball_lattice lattice = {3, {1, 2, 3}, 0.01, 0.002};
+    const struct ball_lattice lattice = {.dimension = 3, .centre = {1, 2, 3}, .radius = 0.01, .spacing = 0.002};
     double x[3][552], *places[3] = {x[0], x[1], x[2]}, sum[3] = {0}, farthest = 0, nearest = 1;
     lattice_points(&lattice, places);
     for (int p = 0; p < 552; p++) {
@@ -38,6 +38,20 @@ static void test_lattice(void)
     check_near("lattice: half a spacing off the centre along each axis", nearest, 0.001 * sqrt(3), 1e-14);
     check_near("lattice: volume of a ball", lattice_volume(&lattice), 4.18879020478639e-6, 1e-18);
     check_true("lattice: more than the most", lattice_count(&lattice, 500) == 501);
+}
+
+/* A box of 3 x 2 x 2 spacings of 0.5 from (1, 2, 3) on. */
+static void test_brick(void)
+{
+    const struct ball_lattice lattice = {.dimension = 3, .centre = {1.75, 2.5, 3.5}, .radius = 0.75, .spacing = 0.5, .numbers = {3, 2, 2}};
+    double x[3][12], *places[3] = {x[0], x[1], x[2]};
+    check_true("brick: points", lattice_count(&lattice, 100) == 12 && lattice_count(&lattice, 11) == 12 && lattice_count(&lattice, 5) == 6);
+    check_near("brick: volume", lattice_volume(&lattice), 1.5, 1e-15);
+    check_near("brick: its low end", lattice_low(&lattice, 2), 3, 1e-15);
+    lattice_points(&lattice, places);
+    check_near("brick: the first point is half a spacing inside", fabs(x[0][0] - 1.25) + fabs(x[1][0] - 2.25) + fabs(x[2][0] - 3.25), 0, 1e-14);
+    check_near("brick: x fastest", fabs(x[0][4] - 1.75) + fabs(x[1][4] - 2.75) + fabs(x[2][4] - 3.25), 0, 1e-14);
+    check_near("brick: the last point", fabs(x[0][11] - 2.25) + fabs(x[1][11] - 2.75) + fabs(x[2][11] - 3.75), 0, 1e-14);
 }
 
 /* --- runs --- */
@@ -251,6 +265,7 @@ static void test_stops(void)
 int main(void)
 {
     test_lattice();
+    test_brick();
     test_flight();
     test_linear();
     test_energy();
