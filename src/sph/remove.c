@@ -131,7 +131,7 @@ void remove_ejected(struct sph *sph)
 {
     const struct sph_columns *c = &sph->columns;
     const double hottest = sph->words->ejected_above;
-    if (!c->parted || sph->step % LOOK_STEPS != 0 || !(sph->budget.fastest > 0))
+    if (!c->parted || sph->step % LOOK_STEPS != 0 || !(sph->budget.fastest > 0 || sph->budget.hottest > hottest))
         return;
     const int32_t main = find_clusters(sph);
     for (size_t p = 0; p < sph->store->count; p++) {
