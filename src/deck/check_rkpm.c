@@ -11,6 +11,13 @@
 static const double MOST_NODES = 1e7, LARGEST_SUPPORT = 20;
 /* Above this, times the spacing, the trace between boundary nodes is held more than it can follow (spec 4). */
 static const double LARGEST_BETA = 1e3;
+/* Below this, times the spacing, a penalty hardly holds; below 1 Nitsche's method has a negative system: the least stiff motion
+ * there is, of the outermost nodes alone, has a gradient of at least its value over the spacing. */
+static const double SMALLEST_PENALTY = 10, SMALLEST_NITSCHE = 1;
+/* Farther from the origin, in spacings, rounding moves nodes; beyond these spacings their squares are no numbers. */
+static const double FARTHEST = 1e9, SMALLEST_SPACING = 1e-60, LARGEST_SPACING = 1e60;
+/* Values and gradients are kept at all points of integration: 30 bytes or so for each of their neighbours. */
+static const double MOST_PAIRS = 4e9;
 static const double LARGEST_JITTER = 0.45, MOST_STEPS = 1e7;
 
 static bool was_given(const struct reader *reader, const char *name)
@@ -28,7 +35,7 @@ static bool check_missing(struct reader *reader)
 {
     static const struct {
         const char *name, *expected;
-    } rows[] = {{"node", "node box x0 x1 ... nx ..."}, {"supp", "supp a"}, {"prob", "prob approx|helmholtz|poisson|elastic|creep"},
+    } rows[] = {{"node", "node box x0 x1 ... nx ..."}, {"supp", "supp a"}, {"prob", "prob approx|helmholtz|poisson|elastic|creep|dynamic"},
                 {"func", "func sine|expo|wave|line|patch|beam|load"}};
     bool good = true;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -52,8 +59,9 @@ static void check_needs(struct reader *reader)
     const struct {
         const char *name, *needed;
         bool is_there;
-    } rows[] = {{"gaus", "'inte gauss' and 'prob helmholtz', 'prob poisson' or 'prob elastic'", is_solved && is_gauss},
-                {"cons", "'prob helmholtz', 'prob poisson' or 'prob elastic'", is_solved},
+    } rows[] = {{"gaus", "'inte gauss' and 'prob helmholtz', 'prob poisson', 'prob elastic' or 'prob creep'", is_solved && is_gauss},
+                {"cons", "'prob helmholtz', 'prob poisson', 'prob elastic' or 'prob creep'", is_solved},
+                {"grad", "'inte gauss' or 'inte dni', other rules have gradients of their own; leave it out", is_gauss || rkpm->integration == INTEGRATION_DNI || rkpm->gradient == GRADIENT_DIRECT},
                 {"gbou", "'inte gauss' and 'cons lagr', 'cons pena' or 'cons nits', or 'prob elastic'",
                  is_solved && is_gauss && (is_elastic || rkpm->constraint != CONSTRAINT_TRANSFORMATION)},
                 {"modu", "'prob elastic' or 'prob creep'", is_elastic},
@@ -184,6 +192,18 @@ static void check_held(struct reader *reader)
 
 /* --- nodes --- */
 
+bool reader_check_spacing(struct reader *reader, struct deck_place place, double farthest, double spacing)
+{
+    if (!(spacing >= SMALLEST_SPACING && spacing <= LARGEST_SPACING))
+        diagnostics_error(reader->diagnostics, place, "the spacing is %g; expected %g to %g, in other units", spacing, SMALLEST_SPACING, LARGEST_SPACING);
+    else if (farthest > FARTHEST * spacing)
+        diagnostics_error(reader->diagnostics, place, "nodes are %g spacings from the origin, where rounding moves them; expected at most %g",
+                          farthest / spacing, FARTHEST);
+    else
+        return true;
+    return false;
+}
+
 /* Extents and numbers of the box, as many as dimensions; false after an error. */
 static bool check_box(struct reader *reader)
 {
@@ -207,6 +227,8 @@ static bool check_box(struct reader *reader)
                               "xyz"[a], MOST_NODES, number);
             good = false;
         }
+        if (good && !reader_check_spacing(reader, rkpm->box_places[2 * a], fmax(fabs(low), fabs(high)), (high - low) / (number - 1)))
+            good = false;
         rkpm->box[2 * a] = low;
         rkpm->box[2 * a + 1] = high;
         rkpm->numbers[a] = good ? (long)number : 2;
@@ -320,17 +342,56 @@ static void check_wave(struct reader *reader)
     }
 }
 
+/* The largest spacing of a level. */
+static double largest_spacing(const struct scene_rkpm *rkpm, const long numbers[3])
+{
+    double largest = 0;
+    for (int a = 0; a < rkpm->dimension; a++)
+        largest = fmax(largest, (rkpm->box[2 * a + 1] - rkpm->box[2 * a]) / fmax((double)(numbers[a] - 1), 1));
+    return largest;
+}
+
 static void check_beta(struct reader *reader)
 {
     const struct scene_rkpm *rkpm = &reader->scene->rkpm;
-    double largest = 0;
-    for (size_t i = 0; i < rkpm->n_levels; i++)
-        for (int a = 0; a < rkpm->dimension; a++)
-            largest = fmax(largest, (rkpm->box[2 * a + 1] - rkpm->box[2 * a]) / fmax((double)(rkpm->levels[i][a] - 1), 1));
-    const double product = rkpm->beta * (rkpm->beta_over_spacing ? 1 : largest);
-    if (was_given(reader, "beta") && product > LARGEST_BETA)
+    const bool is_positive = rkpm->problem == PROBLEM_POISSON || rkpm->problem == PROBLEM_ELASTIC;
+    double largest = 0, smallest = INFINITY;
+    for (size_t i = 0; i < rkpm->n_levels; i++) {
+        const double product = rkpm->beta * (rkpm->beta_over_spacing ? 1 : largest_spacing(rkpm, rkpm->levels[i]));
+        largest = fmax(largest, product);
+        smallest = fmin(smallest, product);
+    }
+    if (!was_given(reader, "beta"))
+        return;
+    if (rkpm->constraint == CONSTRAINT_NITSCHE && is_positive && smallest < SMALLEST_NITSCHE)
+        diagnostics_error(reader->diagnostics, place_of(reader, "beta"),
+                          "beta times the spacing is %g: below %g Nitsche's method is unstable; 100 /h is a good one", smallest, SMALLEST_NITSCHE);
+    else if (rkpm->constraint == CONSTRAINT_PENALTY && smallest < SMALLEST_PENALTY)
         diagnostics_warning(reader->diagnostics, place_of(reader, "beta"),
-                            "beta times the spacing is %g: above %g coarse nodes are held too much at the boundary", product, LARGEST_BETA);
+                            "beta times the spacing is %g: below %g the boundary is hardly held; 100 /h is a good one", smallest, SMALLEST_PENALTY);
+    else if (largest > LARGEST_BETA)
+        diagnostics_warning(reader->diagnostics, place_of(reader, "beta"),
+                            "beta times the spacing is %g: above %g coarse nodes are held too much at the boundary; 100 /h is a good one", largest,
+                            LARGEST_BETA);
+}
+
+/* What a body keeps: as many points as the rule has, each with the nodes of a support. */
+static void check_room(struct reader *reader)
+{
+    const struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    const bool is_gauss = rkpm->integration == INTEGRATION_GAUSS;
+    const double along = !is_gauss ? 1 : rkpm->gauss > 0 ? (double)rkpm->gauss : rkpm->basis == BASIS_QUADRATIC ? 5 : 2;
+    if (rkpm->problem != PROBLEM_ELASTIC && rkpm->problem != PROBLEM_CREEP)
+        return;
+    for (size_t i = 0; i < rkpm->n_levels; i++) {
+        double pairs = 1;
+        for (int a = 0; a < rkpm->dimension; a++)
+            pairs *= along * (double)rkpm->levels[i][a] * fmin(2 * rkpm->support[a], (double)rkpm->levels[i][a]);
+        if (pairs > MOST_PAIRS)
+            diagnostics_error(reader->diagnostics, rkpm->n_refinements > 0 ? rkpm->refinement_places[i] : rkpm->box_places[2 * rkpm->dimension],
+                              "points of integration have %.2g neighbours together; expected at most %g: fewer nodes, a smaller supp or gaus", pairs,
+                              MOST_PAIRS);
+    }
 }
 
 void reader_finish_rkpm(struct reader *reader)
@@ -367,6 +428,7 @@ void reader_finish_rkpm(struct reader *reader)
     check_file(reader);
     check_wave(reader);
     check_beta(reader);
+    check_room(reader);
     const long *last = rkpm->levels[rkpm->n_levels - 1];
     if (diagnostics_errors(reader->diagnostics) == 0)
         scene->n_particles = rkpm->file ? (long)rkpm->n_places : last[0] * last[1] * last[2];
