@@ -11,9 +11,10 @@
 static const double MOST_NODES = 1e7, LARGEST_SUPPORT = 20;
 /* Above this, times the spacing, the trace between boundary nodes is held more than it can follow (spec 4). */
 static const double LARGEST_BETA = 1e3;
-/* Below this, times the spacing, a penalty hardly holds; below 1 Nitsche's method has a negative system: the least stiff motion
- * there is, of the outermost nodes alone, has a gradient of at least its value over the spacing. */
-static const double SMALLEST_PENALTY = 10, SMALLEST_NITSCHE = 1;
+/* Times the spacing, and of elastic with the modulus of strain along one axis for that of Young: below the first a penalty hardly
+ * holds; below the second Nitsche's method has a negative system, for where only the outermost nodes move the gradient is at least
+ * the value over the spacing. */
+static const double SMALLEST_PENALTY = 10, SMALLEST_NITSCHE = 1, GOOD_BETA = 100;
 /* Farther from the origin, in spacings, rounding moves nodes; beyond these spacings their squares are no numbers. */
 static const double FARTHEST = 1e9, SMALLEST_SPACING = 1e-60, LARGEST_SPACING = 1e60;
 /* Values and gradients are kept at all points of integration: 30 bytes or so for each of their neighbours. */
@@ -351,28 +352,37 @@ static double largest_spacing(const struct scene_rkpm *rkpm, const long numbers[
     return largest;
 }
 
+/* Young's modulus over that of strain along one axis alone, which tractions of nearly incompressible bodies follow. */
+static double relative_young(const struct scene_rkpm *rkpm)
+{
+    const double nu = rkpm->poisson;
+    if (rkpm->problem != PROBLEM_ELASTIC || rkpm->dimension == 1)
+        return 1;
+    return rkpm->dimension == 2 && rkpm->plane == PLANE_STRESS ? (1 - nu) * (1 + nu) : (1 + nu) * (1 - 2 * nu) / (1 - nu);
+}
+
 static void check_beta(struct reader *reader)
 {
     const struct scene_rkpm *rkpm = &reader->scene->rkpm;
-    const bool is_positive = rkpm->problem == PROBLEM_POISSON || rkpm->problem == PROBLEM_ELASTIC;
+    const bool is_positive = rkpm->problem == PROBLEM_POISSON || rkpm->problem == PROBLEM_ELASTIC, is_given = was_given(reader, "beta");
+    const struct deck_place place = place_of(reader, is_given ? "beta" : "cons");
+    const double ratio = relative_young(rkpm);
     double largest = 0, smallest = INFINITY;
     for (size_t i = 0; i < rkpm->n_levels; i++) {
-        const double product = rkpm->beta * (rkpm->beta_over_spacing ? 1 : largest_spacing(rkpm, rkpm->levels[i]));
+        const double product = ratio * rkpm->beta * (rkpm->beta_over_spacing ? 1 : largest_spacing(rkpm, rkpm->levels[i]));
         largest = fmax(largest, product);
         smallest = fmin(smallest, product);
     }
-    if (!was_given(reader, "beta"))
-        return;
     if (rkpm->constraint == CONSTRAINT_NITSCHE && is_positive && smallest < SMALLEST_NITSCHE)
-        diagnostics_error(reader->diagnostics, place_of(reader, "beta"),
-                          "beta times the spacing is %g: below %g Nitsche's method is unstable; 100 /h is a good one", smallest, SMALLEST_NITSCHE);
+        diagnostics_error(reader->diagnostics, place, "beta times the spacing is %.3g: below %g Nitsche's method is unstable; expected about 'beta %.3g /h'",
+                          smallest, SMALLEST_NITSCHE, GOOD_BETA / ratio);
     else if (rkpm->constraint == CONSTRAINT_PENALTY && smallest < SMALLEST_PENALTY)
-        diagnostics_warning(reader->diagnostics, place_of(reader, "beta"),
-                            "beta times the spacing is %g: below %g the boundary is hardly held; 100 /h is a good one", smallest, SMALLEST_PENALTY);
-    else if (largest > LARGEST_BETA)
-        diagnostics_warning(reader->diagnostics, place_of(reader, "beta"),
-                            "beta times the spacing is %g: above %g coarse nodes are held too much at the boundary; 100 /h is a good one", largest,
-                            LARGEST_BETA);
+        diagnostics_warning(reader->diagnostics, place, "beta times the spacing is %.3g: below %g the boundary is hardly held; take about 'beta %.3g /h'",
+                            smallest, SMALLEST_PENALTY, GOOD_BETA / ratio);
+    else if (is_given && largest > LARGEST_BETA)
+        diagnostics_warning(reader->diagnostics, place,
+                            "beta times the spacing is %g: above %g coarse nodes are held too much at the boundary; take about 'beta %.3g /h'", largest,
+                            LARGEST_BETA, GOOD_BETA / ratio);
 }
 
 /* What a body keeps: as many points as the rule has, each with the nodes of a support. */

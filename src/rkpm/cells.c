@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Bisectors with nodes up to so many spacings away can bound a cell; an edge shorter than this part of the spacing is none. */
+/* Bisectors with nodes up to so many spacings away are tried first; an edge shorter than this part of the spacing is none. */
 static const double REACH = 3, LEAST_EDGE = 1e-9;
 enum { CORNERS = 64 };
 
@@ -46,25 +46,37 @@ static void clip(struct polygon *polygon, const double node[2], const double oth
     *polygon = kept;
 }
 
-static struct polygon cell_polygon(const struct search *search, const struct node_box *box, const double low[2], const double high[2],
-                                   double *const x[3], size_t node)
+/* The box clipped by bisectors with all nodes up to `reach` cells' sides away. */
+static struct polygon clip_near(const struct search *search, const double low[2], const double high[2], double *const x[3], size_t node, double reach)
 {
     const double middle[3] = {x[0][node], x[1][node], 0};
     struct polygon polygon = whole_box(low, high);
     int from[3], to[3], cell[3] = {0};
-    search_range(search, middle, 1, from, to);
+    search_range(search, middle, reach, from, to);
     for (cell[1] = from[1]; cell[1] <= to[1]; cell[1]++)
         for (cell[0] = from[0]; cell[0] <= to[0]; cell[0]++) {
             const size_t c = search_cell(search, cell);
             for (int32_t k = search->first[c]; k < search->first[c + 1]; k++) {
                 const int32_t other = search->node[k];
                 const double place[2] = {x[0][other], x[1][other]};
-                if ((size_t)other != node && fabs(place[0] - middle[0]) <= REACH * box->spacing[0] &&
-                    fabs(place[1] - middle[1]) <= REACH * box->spacing[1])
+                if ((size_t)other != node && fabs(place[0] - middle[0]) <= reach * search->size[0] &&
+                    fabs(place[1] - middle[1]) <= reach * search->size[1])
                     clip(&polygon, middle, place);
             }
         }
     return polygon;
+}
+
+/* Nodes farther away than twice the farthest corner can't cut: those nearer are all tried, also where spacings differ much or the
+ * nodes leave a hole. */
+static struct polygon cell_polygon(const struct search *search, const double low[2], const double high[2], double *const x[3], size_t node)
+{
+    const struct polygon polygon = clip_near(search, low, high, x, node, 1);
+    double farthest = 0;
+    for (int i = 0; i < polygon.count; i++)
+        farthest = fmax(farthest, hypot(polygon.x[i][0] - x[0][node], polygon.x[i][1] - x[1][node]));
+    const double reach = 2 * farthest / fmin(search->size[0], search->size[1]);
+    return reach > 1 ? clip_near(search, low, high, x, node, reach * (1 + 1e-9)) : polygon;
 }
 
 /* --- faces, volumes and moments --- */
@@ -110,7 +122,7 @@ static void open_polygons(struct cells *cells, const struct node_box *box, doubl
     search_open(&search, 2, cells->count, x, reach);
     for (size_t node = 0; node < cells->count; node++) {
         const double middle[2] = {x[0][node], x[1][node]};
-        const struct polygon polygon = cell_polygon(&search, box, box->low, high, x, node);
+        const struct polygon polygon = cell_polygon(&search, box->low, high, x, node);
         cells->first[node + 1] = cells->first[node];
         add_polygon(cells, node, middle, &polygon, least);
     }

@@ -77,7 +77,7 @@ static void stop_unsolved(struct rkpm *rkpm, const struct solver *solver)
     *instability = (struct instability){.is_stopped = true, .particle = -1};
     snprintf(instability->cause, sizeof instability->cause, "the linear system is %s", causes[solver->kind]);
     snprintf(instability->advice, sizeof instability->advice, "%s",
-             solver->kind == SOLVER_BANDED ? "take cons nits, or a larger supp" : "take another beta, as 100 /h, or more held sides");
+             solver->kind == SOLVER_BANDED ? "take cons nits, or a larger supp" : "take a larger beta, or more held sides");
 }
 
 void rkpm_elastic_solve(struct rkpm *rkpm, struct rkpm_level *level)
