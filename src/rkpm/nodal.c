@@ -140,13 +140,24 @@ THREADS_INLINE bool set_rows_of_box(const struct nodal *nodal, size_t node, int 
     return good;
 }
 
+/* Values at a point of a cell's faces, with supports that are enlarged as far as this point needs, at most as far as the node's: cells
+ * on both sides of a face, and the boundary, then have the same ones there. */
+THREADS_INLINE bool find_face_values(const struct nodal *nodal, size_t node, int n, const double point[AXES], struct nodal_scratch *scratch, const int d)
+{
+    struct polynomials polynomials;
+    for (double reach = 1;; reach *= MOMENTS_ENLARGEMENT) {
+        set_kernels(nodal, point, reach, n, false, scratch, d);
+        const bool good = find_values(nodal, scratch, n, &polynomials, scratch->value[0], d);
+        if (good || reach >= nodal->reach[node])
+            return good;
+    }
+}
+
 /* row += factor area Psi(point) of all axes. */
 THREADS_INLINE bool add_values(const struct nodal *nodal, size_t node, int n, int row, const double point[AXES], const double area[AXES],
                                double factor, struct nodal_scratch *scratch, const int d)
 {
-    struct polynomials polynomials;
-    set_kernels(nodal, point, nodal->reach[node], n, false, scratch, d);
-    const bool good = find_values(nodal, scratch, n, &polynomials, scratch->value[0], d);
+    const bool good = find_face_values(nodal, node, n, point, scratch, d);
     for (int a = 0; a < d; a++) {
         double *restrict gradient = row_of(nodal, node, row, a);
         for (int k = 0; k < n; k++)
