@@ -18,7 +18,7 @@ static const double SMALLEST_PENALTY = 10, SMALLEST_NITSCHE = 1, GOOD_BETA = 100
 /* Farther from the origin, in spacings, rounding moves nodes; beyond these spacings their squares are no numbers. */
 static const double FARTHEST = 1e9, SMALLEST_SPACING = 1e-60, LARGEST_SPACING = 1e60;
 /* Values and gradients are kept at all points of integration: 30 bytes or so for each of their neighbours. */
-static const double MOST_PAIRS = 4e9;
+static const double MOST_PAIRS = 4e9, MOST_ENTRIES = 8e9; /* 8 bytes each of a matrix that is factored */
 static const double LARGEST_JITTER = 0.45, MOST_STEPS = 1e7;
 
 static bool was_given(const struct reader *reader, const char *name)
@@ -386,21 +386,40 @@ static void check_beta(struct reader *reader)
 }
 
 /* What a body keeps: as many points as the rule has, each with the nodes of a support. */
+static double pairs_of(const struct scene_rkpm *rkpm, const long numbers[3])
+{
+    const bool is_gauss = rkpm->integration == INTEGRATION_GAUSS;
+    const double along = !is_gauss ? 1 : rkpm->gauss > 0 ? (double)rkpm->gauss : rkpm->basis == BASIS_QUADRATIC ? 5 : 2;
+    double pairs = 1;
+    for (int a = 0; a < rkpm->dimension; a++)
+        pairs *= along * (double)numbers[a] * fmin(2 * rkpm->support[a], (double)numbers[a]);
+    return pairs;
+}
+
+/* What a scalar problem keeps: its matrix from the first entry of each row on, with the longest axis the slowest. */
+static double entries_of(const struct scene_rkpm *rkpm, const long numbers[3])
+{
+    double nodes = 1, longest = 1, support = 0;
+    for (int a = 0; a < rkpm->dimension; a++) {
+        nodes *= (double)numbers[a];
+        longest = fmax(longest, (double)numbers[a]);
+        support = fmax(support, rkpm->support[a]);
+    }
+    return nodes * fmin(2 * support * nodes / longest, nodes);
+}
+
+/* What would take more room than machines have is refused before its points and rows are counted. */
 static void check_room(struct reader *reader)
 {
     const struct scene_rkpm *rkpm = &reader->scene->rkpm;
-    const bool is_gauss = rkpm->integration == INTEGRATION_GAUSS;
-    const double along = !is_gauss ? 1 : rkpm->gauss > 0 ? (double)rkpm->gauss : rkpm->basis == BASIS_QUADRATIC ? 5 : 2;
-    if (rkpm->problem != PROBLEM_ELASTIC && rkpm->problem != PROBLEM_CREEP)
-        return;
-    for (size_t i = 0; i < rkpm->n_levels; i++) {
-        double pairs = 1;
-        for (int a = 0; a < rkpm->dimension; a++)
-            pairs *= along * (double)rkpm->levels[i][a] * fmin(2 * rkpm->support[a], (double)rkpm->levels[i][a]);
-        if (pairs > MOST_PAIRS)
+    const bool is_body = rkpm->problem == PROBLEM_ELASTIC || rkpm->problem == PROBLEM_CREEP;
+    for (size_t i = 0; i < rkpm->n_levels && rkpm->problem != PROBLEM_APPROXIMATION; i++) {
+        const double needed = is_body ? pairs_of(rkpm, rkpm->levels[i]) : entries_of(rkpm, rkpm->levels[i]), most = is_body ? MOST_PAIRS : MOST_ENTRIES;
+        if (needed > most)
             diagnostics_error(reader->diagnostics, rkpm->n_refinements > 0 ? rkpm->refinement_places[i] : rkpm->box_places[2 * rkpm->dimension],
-                              "points of integration have %.2g neighbours together; expected at most %g: fewer nodes, a smaller supp or gaus", pairs,
-                              MOST_PAIRS);
+                              is_body ? "points of integration have %.2g neighbours together; expected at most %g: fewer nodes, a smaller supp or gaus"
+                                      : "the matrix has about %.2g entries; expected at most %g: fewer nodes, or a smaller supp",
+                              needed, most);
     }
 }
 
