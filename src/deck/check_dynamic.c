@@ -63,6 +63,10 @@ static void check_pairs(struct reader *reader)
         diagnostics_error(reader->diagnostics, place_of(reader, "grad"), "'grad' is of 'inte dni'; snni and nsni have gradients of their own");
     if (was_given(reader, "stab") && rkpm->integration != INTEGRATION_NSNI)
         diagnostics_error(reader->diagnostics, place_of(reader, "stab"), "'stab' needs 'inte nsni'");
+    if (rkpm->dimension == 2 && dynamic->velocity[2] != 0)
+        diagnostics_error(reader->diagnostics, place_of(reader, "star"), "with 'dime 2' nothing moves along z; expected 'star vx vy'");
+    if (rkpm->dimension == 2 && dynamic->gravity[2] != 0)
+        diagnostics_error(reader->diagnostics, place_of(reader, "grav"), "with 'dime 2' nothing moves along z; expected 'grav gx gy'");
     if (dynamic->wall != RKPM_WALL_NONE && dynamic->wall_axis >= rkpm->dimension)
         diagnostics_error(reader->diagnostics, dynamic->wall_place, "with 'dime 2' the wall's axis is x or y, not z");
     if (dynamic->wall == RKPM_WALL_NATURAL && dynamic->mode != KERNEL_SEMI)
@@ -103,6 +107,10 @@ static void check_nodes(struct reader *reader)
         diagnostics_error(reader->diagnostics, dynamic->lattice_place, "the radius is %g spacings; expected 2 or more",
                           dynamic->lattice.radius / dynamic->lattice.spacing);
     scene->n_particles = (long)count;
+    double farthest = dynamic->lattice.radius;
+    for (int a = 0; a < dynamic->lattice.dimension; a++)
+        farthest = fmax(farthest, fabs(dynamic->lattice.centre[a]) + dynamic->lattice.radius);
+    reader_check_spacing(reader, dynamic->lattice_place, farthest, dynamic->lattice.spacing);
     const double low = lattice_low(&dynamic->lattice, dynamic->wall_axis);
     if (dynamic->wall != RKPM_WALL_NONE && low < dynamic->wall_position)
         diagnostics_error(reader->diagnostics, dynamic->wall_place, "the wall is at %g, and the body begins at %g; expected a body above the wall",

@@ -13,6 +13,14 @@ static const double MOST_NODES = 1e7, LARGEST_SUPPORT = 20;
 static const double LARGEST_BETA = 1e3;
 /* lambda + 2 mu over Young's modulus from which on linear functions lock: Poisson's ratio 0.483. */
 static const double LARGEST_STIFFEST = 10;
+/* Times the spacing, and of elastic with the modulus of strain along one axis for that of Young: below the first a penalty hardly
+ * holds; below the second Nitsche's method has a negative system, for where only the outermost nodes move the gradient is at least
+ * the value over the spacing. */
+static const double SMALLEST_PENALTY = 10, SMALLEST_NITSCHE = 1, GOOD_BETA = 100;
+/* Farther from the origin, in spacings, rounding moves nodes; beyond these spacings their squares are no numbers. */
+static const double FARTHEST = 1e9, SMALLEST_SPACING = 1e-60, LARGEST_SPACING = 1e60;
+/* Values and gradients are kept at all points of integration: 30 bytes or so for each of their neighbours. */
+static const double MOST_PAIRS = 4e9, MOST_ENTRIES = 8e9; /* 8 bytes each of a matrix that is factored */
 static const double LARGEST_JITTER = 0.45, MOST_STEPS = 1e7;
 
 static bool was_given(const struct reader *reader, const char *name)
@@ -30,7 +38,7 @@ static bool check_missing(struct reader *reader)
 {
     static const struct {
         const char *name, *expected;
-    } rows[] = {{"node", "node box x0 x1 ... nx ..."}, {"supp", "supp a"}, {"prob", "prob approx|helmholtz|poisson|elastic|creep"},
+    } rows[] = {{"node", "node box x0 x1 ... nx ..."}, {"supp", "supp a"}, {"prob", "prob approx|helmholtz|poisson|elastic|creep|dynamic"},
                 {"func", "func sine|expo|wave|line|patch|beam|load"}};
     bool good = true;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -54,8 +62,9 @@ static void check_needs(struct reader *reader)
     const struct {
         const char *name, *needed;
         bool is_there;
-    } rows[] = {{"gaus", "'inte gauss' and 'prob helmholtz', 'prob poisson' or 'prob elastic'", is_solved && is_gauss},
-                {"cons", "'prob helmholtz', 'prob poisson' or 'prob elastic'", is_solved},
+    } rows[] = {{"gaus", "'inte gauss' and 'prob helmholtz', 'prob poisson', 'prob elastic' or 'prob creep'", is_solved && is_gauss},
+                {"cons", "'prob helmholtz', 'prob poisson', 'prob elastic' or 'prob creep'", is_solved},
+                {"grad", "'inte gauss' or 'inte dni', other rules have gradients of their own; leave it out", is_gauss || rkpm->integration == INTEGRATION_DNI || rkpm->gradient == GRADIENT_DIRECT},
                 {"gbou", "'inte gauss' and 'cons lagr', 'cons pena' or 'cons nits', or 'prob elastic'",
                  is_solved && is_gauss && (is_elastic || rkpm->constraint != CONSTRAINT_TRANSFORMATION)},
                 {"modu", "'prob elastic' or 'prob creep'", is_elastic},
@@ -187,6 +196,18 @@ static void check_held(struct reader *reader)
 
 /* --- nodes --- */
 
+bool reader_check_spacing(struct reader *reader, struct deck_place place, double farthest, double spacing)
+{
+    if (!(spacing >= SMALLEST_SPACING && spacing <= LARGEST_SPACING))
+        diagnostics_error(reader->diagnostics, place, "the spacing is %g; expected %g to %g, in other units", spacing, SMALLEST_SPACING, LARGEST_SPACING);
+    else if (farthest > FARTHEST * spacing)
+        diagnostics_error(reader->diagnostics, place, "nodes are %g spacings from the origin, where rounding moves them; expected at most %g",
+                          farthest / spacing, FARTHEST);
+    else
+        return true;
+    return false;
+}
+
 /* Extents and numbers of the box, as many as dimensions; false after an error. */
 static bool check_box(struct reader *reader)
 {
@@ -210,6 +231,8 @@ static bool check_box(struct reader *reader)
                               "xyz"[a], MOST_NODES, number);
             good = false;
         }
+        if (good && !reader_check_spacing(reader, rkpm->box_places[2 * a], fmax(fabs(low), fabs(high)), (high - low) / (number - 1)))
+            good = false;
         rkpm->box[2 * a] = low;
         rkpm->box[2 * a + 1] = high;
         rkpm->numbers[a] = good ? (long)number : 2;
@@ -340,18 +363,84 @@ static void check_locking(struct reader *reader)
                             "Poisson's ratio %g makes a body of linear functions much too stiff (locking); take basi quad", rkpm->poisson);
 }
 
+/* The largest spacing of a level. */
+static double largest_spacing(const struct scene_rkpm *rkpm, const long numbers[3])
+{
+    double largest = 0;
+    for (int a = 0; a < rkpm->dimension; a++)
+        largest = fmax(largest, (rkpm->box[2 * a + 1] - rkpm->box[2 * a]) / fmax((double)(numbers[a] - 1), 1));
+    return largest;
+}
+
+/* Young's modulus over that of strain along one axis alone, which tractions of nearly incompressible bodies follow. */
+static double relative_young(const struct scene_rkpm *rkpm)
+{
+    const double nu = rkpm->poisson;
+    if (rkpm->problem != PROBLEM_ELASTIC || rkpm->dimension == 1)
+        return 1;
+    return rkpm->dimension == 2 && rkpm->plane == PLANE_STRESS ? (1 - nu) * (1 + nu) : (1 + nu) * (1 - 2 * nu) / (1 - nu);
+}
+
 static void check_beta(struct reader *reader)
 {
     const struct scene_rkpm *rkpm = &reader->scene->rkpm;
-    double largest = 0;
-    for (size_t i = 0; i < rkpm->n_levels; i++)
-        for (int a = 0; a < rkpm->dimension; a++)
-            largest = fmax(largest, (rkpm->box[2 * a + 1] - rkpm->box[2 * a]) / fmax((double)(rkpm->levels[i][a] - 1), 1));
-    const double product = rkpm->beta * (rkpm->beta_over_spacing ? 1 : largest);
-    if (was_given(reader, "beta") && product > LARGEST_BETA * fmax(0.1 * stiffest(rkpm), 1))
-        diagnostics_warning(reader->diagnostics, place_of(reader, "beta"),
-                            "beta times the spacing is %g: above %g coarse nodes are held too much at the boundary", product,
-                            LARGEST_BETA * fmax(0.1 * stiffest(rkpm), 1));
+    const bool is_positive = rkpm->problem == PROBLEM_POISSON || rkpm->problem == PROBLEM_ELASTIC, is_given = was_given(reader, "beta");
+    const struct deck_place place = place_of(reader, is_given ? "beta" : "cons");
+    const double ratio = relative_young(rkpm);
+    double largest = 0, smallest = INFINITY;
+    for (size_t i = 0; i < rkpm->n_levels; i++) {
+        const double product = ratio * rkpm->beta * (rkpm->beta_over_spacing ? 1 : largest_spacing(rkpm, rkpm->levels[i]));
+        largest = fmax(largest, product);
+        smallest = fmin(smallest, product);
+    }
+    if (rkpm->constraint == CONSTRAINT_NITSCHE && is_positive && smallest < SMALLEST_NITSCHE)
+        diagnostics_error(reader->diagnostics, place, "beta times the spacing is %.3g: below %g Nitsche's method is unstable; expected about 'beta %.3g /h'",
+                          smallest, SMALLEST_NITSCHE, GOOD_BETA / ratio);
+    else if (rkpm->constraint == CONSTRAINT_PENALTY && smallest < SMALLEST_PENALTY)
+        diagnostics_warning(reader->diagnostics, place, "beta times the spacing is %.3g: below %g the boundary is hardly held; take about 'beta %.3g /h'",
+                            smallest, SMALLEST_PENALTY, GOOD_BETA / ratio);
+    else if (is_given && largest > LARGEST_BETA)
+        diagnostics_warning(reader->diagnostics, place,
+                            "beta times the spacing is %g: above %g coarse nodes are held too much at the boundary; take about 'beta %.3g /h'", largest,
+                            LARGEST_BETA, GOOD_BETA / ratio);
+}
+
+/* What a body keeps: as many points as the rule has, each with the nodes of a support. */
+static double pairs_of(const struct scene_rkpm *rkpm, const long numbers[3])
+{
+    const bool is_gauss = rkpm->integration == INTEGRATION_GAUSS;
+    const double along = !is_gauss ? 1 : rkpm->gauss > 0 ? (double)rkpm->gauss : rkpm->basis == BASIS_QUADRATIC ? 5 : 2;
+    double pairs = 1;
+    for (int a = 0; a < rkpm->dimension; a++)
+        pairs *= along * (double)numbers[a] * fmin(2 * rkpm->support[a], (double)numbers[a]);
+    return pairs;
+}
+
+/* What a scalar problem keeps: its matrix from the first entry of each row on, with the longest axis the slowest. */
+static double entries_of(const struct scene_rkpm *rkpm, const long numbers[3])
+{
+    double nodes = 1, longest = 1, support = 0;
+    for (int a = 0; a < rkpm->dimension; a++) {
+        nodes *= (double)numbers[a];
+        longest = fmax(longest, (double)numbers[a]);
+        support = fmax(support, rkpm->support[a]);
+    }
+    return nodes * fmin(2 * support * nodes / longest, nodes);
+}
+
+/* What would take more room than machines have is refused before its points and rows are counted. */
+static void check_room(struct reader *reader)
+{
+    const struct scene_rkpm *rkpm = &reader->scene->rkpm;
+    const bool is_body = rkpm->problem == PROBLEM_ELASTIC || rkpm->problem == PROBLEM_CREEP;
+    for (size_t i = 0; i < rkpm->n_levels && rkpm->problem != PROBLEM_APPROXIMATION; i++) {
+        const double needed = is_body ? pairs_of(rkpm, rkpm->levels[i]) : entries_of(rkpm, rkpm->levels[i]), most = is_body ? MOST_PAIRS : MOST_ENTRIES;
+        if (needed > most)
+            diagnostics_error(reader->diagnostics, rkpm->n_refinements > 0 ? rkpm->refinement_places[i] : rkpm->box_places[2 * rkpm->dimension],
+                              is_body ? "points of integration have %.2g neighbours together; expected at most %g: fewer nodes, a smaller supp or gaus"
+                                      : "the matrix has about %.2g entries; expected at most %g: fewer nodes, or a smaller supp",
+                              needed, most);
+    }
 }
 
 void reader_finish_rkpm(struct reader *reader)
@@ -389,6 +478,7 @@ void reader_finish_rkpm(struct reader *reader)
     check_wave(reader);
     check_beta(reader);
     check_locking(reader);
+    check_room(reader);
     const long *last = rkpm->levels[rkpm->n_levels - 1];
     if (diagnostics_errors(reader->diagnostics) == 0)
         scene->n_particles = rkpm->file ? (long)rkpm->n_places : last[0] * last[1] * last[2];

@@ -19,6 +19,9 @@ void reader_start_velocity(struct reader *reader, const struct deck_word *word, 
 void reader_rkpm_gravity(struct reader *reader, const struct deck_word *word, const struct value *values);
 void reader_rkpm_wall(struct reader *reader, const struct deck_word *word, const struct value *values);
 
+/* Whether doubles can tell nodes apart, of which one is `farthest` from the origin; else an error at the place (check_rkpm). */
+bool reader_check_spacing(struct reader *reader, struct deck_place place, double farthest, double spacing);
+
 /* What only the whole block shows; words of problems in it are reported before. */
 void reader_finish_dynamic(struct reader *reader);
 

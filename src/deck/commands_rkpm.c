@@ -127,7 +127,7 @@ static void add_element(struct reader *reader, const struct deck_word *word, con
 {
     struct scene_rkpm *rkpm = &reader->scene->rkpm;
     if (rkpm->n_elements == RKPM_ELEMENTS) {
-        diagnostics_error(reader->diagnostics, word->place, "there are more than %d elements", RKPM_ELEMENTS);
+        diagnostics_error(reader->diagnostics, word->place, "there are more than %d elements; expected at most so many, with relaxation times a decade or so apart", RKPM_ELEMENTS);
         return;
     }
     rkpm->elements[rkpm->n_elements][0] = values[0].real;
@@ -138,7 +138,7 @@ static void add_load(struct reader *reader, const struct deck_word *word, const 
 {
     struct scene_rkpm *rkpm = &reader->scene->rkpm;
     if (rkpm->n_loads == RKPM_LOADS) {
-        diagnostics_error(reader->diagnostics, word->place, "the load changes more than %d times", RKPM_LOADS);
+        diagnostics_error(reader->diagnostics, word->place, "the load changes more than %d times; expected at most so many 'from'", RKPM_LOADS);
         return;
     }
     rkpm->load_places[rkpm->n_loads] = values[0].word.place;
@@ -180,7 +180,7 @@ const struct keyword rkpm_keywords[] = {
      .doc = "support radius over the spacing, one for all axes or one for each; more than 1, with quad more than 2. 1.75 and 2.5 are "
             "good ones"},
     {.name = "grad", .long_name = "gradient", .arguments = WORD("direct|implicit"), .choice = CHOICE(gradients, gradient),
-     .doc = "gradients of shape functions: their own (direct, default), or those that reproduce gradients of the basis (implicit)"},
+     .doc = "gradients of shape functions: their own (direct, default), or those that reproduce gradients of the basis (implicit); with inte gauss and dni"},
     {.name = "prob", .long_name = "problem", .arguments = WORD("approx|helmholtz|poisson|elastic|creep|dynamic"), .choice = CHOICE(problems, problem),
      .doc = "the function itself, from its values at the nodes (approx); div grad u + k^2 u = f (helmholtz); div grad u = f (poisson): f and "
             "the values at the boundary are those of the function; displacements of an elastic body (elastic): those at held sides and the "

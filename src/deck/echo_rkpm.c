@@ -35,8 +35,10 @@ static bool has_word(const struct scene_rkpm *rkpm, const char *name)
         return rkpm->problem == PROBLEM_HELMHOLTZ || rkpm->function == FUNCTION_WAVE;
     if (strcmp(name, "plan") == 0)
         return is_body && rkpm->dimension == 2;
-    if (strcmp(name, "modu") == 0 || strcmp(name, "inte") == 0 || strcmp(name, "vci") == 0)
+    if (strcmp(name, "modu") == 0 || strcmp(name, "inte") == 0)
         return is_body;
+    if (strcmp(name, "vci") == 0)
+        return is_body && !is_creep;
     if (strcmp(name, "rule") == 0 || strcmp(name, "vrel") == 0 || strcmp(name, "span") == 0)
         return is_creep;
     if (strcmp(name, "forc") == 0)

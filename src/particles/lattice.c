@@ -60,6 +60,8 @@ size_t lattice_count(const struct ball_lattice *lattice, size_t most)
     size_t count = 0;
     if (is_box(lattice))
         return box_points(lattice) > (double)most ? most + 1 : (size_t)box_points(lattice);
+    if ((double)half * (double)half > (double)most) /* their disc alone has more */
+        return most + 1;
     for (long k = lattice->dimension == 3 ? -half : 0; k < (lattice->dimension == 3 ? half : 1); k++)
         for (long j = -half; j < half; j++) {
             count += 2 * (size_t)half_row_at(lattice, j, k);

@@ -68,14 +68,6 @@ static bool has_neighbours(struct rkpm *rkpm, const struct body *body)
     return false;
 }
 
-/* Beta over the spacing, in Young's moduli, that Nitsche's method holds a body next to incompressible with: its tractions are of
- * the size of lambda + 2 mu, the penalty has to outweigh them. */
-static double least_beta(const struct rkpm *rkpm)
-{
-    const struct moduli *moduli = &rkpm->deformation.moduli;
-    return 10 * (moduli->lambda + 2 * moduli->mu) / rkpm->words->young;
-}
-
 static void stop_unsolved(struct rkpm *rkpm, const struct solver *solver)
 {
     static const char *const causes[] = {[SOLVER_ENVELOPE] = "not positive: the boundary is held too weakly, or to rounding error",
@@ -85,9 +77,7 @@ static void stop_unsolved(struct rkpm *rkpm, const struct solver *solver)
     *instability = (struct instability){.is_stopped = true, .particle = -1};
     snprintf(instability->cause, sizeof instability->cause, "the linear system is %s", causes[solver->kind]);
     snprintf(instability->advice, sizeof instability->advice, "%s",
-             solver->kind == SOLVER_BANDED ? "take cons nits, or a larger supp" : "take another beta, as 100 /h, or more held sides");
-    if (solver->kind != SOLVER_BANDED && rkpm->words->constraint == CONSTRAINT_NITSCHE && least_beta(rkpm) > 100)
-        snprintf(instability->advice, sizeof instability->advice, "with this Poisson's ratio take beta %.2g /h or more, or cons tran", least_beta(rkpm));
+             solver->kind == SOLVER_BANDED ? "take cons nits, or a larger supp" : "take a larger beta, or more held sides");
 }
 
 void rkpm_elastic_solve(struct rkpm *rkpm, struct rkpm_level *level)

@@ -249,6 +249,43 @@ add stl_overlap 0 stl_overlap.mpm:23:9:warning "shells that overlap: the 32 poin
 add directory 4 "" "cannot read 'directory.mpm'"
 add not_there 4 "" "cannot read 'not_there.mpm': No such file"
 
+# Nodes of rkpm from a file: their path is seen from the deck that names them. nodes_deck NAME [ANOTHER WORD]
+nodes_deck() {
+    printf 'meth rkpm\nrkpm\nnode box 0 1 0 1 4 4\nsupp 2\nprob elastic\nmodu 1 0.3\nfunc patch\ncons nits\nfile %s\n%s\nends\nendi\n' "$1" "${2:-dime 2}"
+}
+# four_nodes [LINE]: lines of a file of nodes, and one more
+four_nodes() { printf '# corners\n0 0\n1, 0 ! the second\n\n0\t1\r\n1 1\n'; [ -z "$1" ] || printf '%s\n' "$1"; }
+four_nodes >sub/corners.nodes
+nodes_deck sub/corners.nodes >right_nodes.mpm
+add right_nodes 0 "" ""
+# wrong_nodes NAME LINE MESSAGE: a file with a fifth line that is wrong
+wrong_nodes() {
+    four_nodes "$2" >"sub/$1.nodes"
+    nodes_deck "sub/$1.nodes" >"$1.mpm"
+    add "$1" 2 "$1.mpm:9:1:error" "$3"
+}
+wrong_nodes nodes_word '0.5 half' "line 7 of 'sub/nodes_word.nodes' has no 2 coordinates"
+wrong_nodes nodes_short '0.5' "line 7 of 'sub/nodes_short.nodes' has no 2 coordinates"
+wrong_nodes nodes_long '0.5 0.5 0.5' "line 7 of 'sub/nodes_long.nodes' has no 2 coordinates"
+wrong_nodes nodes_large '0.5 1e999' "line 7 of 'sub/nodes_large.nodes' has no 2 coordinates"
+wrong_nodes nodes_nan '0.5 nan' "line 7 of 'sub/nodes_nan.nodes' has no 2 coordinates"
+wrong_nodes nodes_outside '0.5 1.25' "node 5 of 'sub/nodes_outside.nodes' is outside the box: its y is 1.25"
+wrong_nodes nodes_twice '1 0' "'sub/nodes_twice.nodes' has two nodes at (1, 0, 0)"
+printf '0 0\n1 1\n' >sub/few.nodes
+nodes_deck sub/few.nodes >nodes_few.mpm
+add nodes_few 2 nodes_few.mpm:9:1:error "'sub/few.nodes' has 2 nodes; expected more than 2"
+: >sub/empty.nodes
+nodes_deck sub/empty.nodes >nodes_empty.mpm
+add nodes_empty 2 nodes_empty.mpm:9:1:error "'sub/empty.nodes' has 0 nodes; expected more than 2"
+nodes_deck sub >nodes_folder.mpm
+add nodes_folder 2 nodes_folder.mpm:9:1:error "cannot read 'sub'"
+nodes_deck sub/box.stl >nodes_of_surface.mpm
+add nodes_of_surface 2 nodes_of_surface.mpm:9:1:error "line 1 of 'sub/box.stl' has no 2 coordinates"
+nodes_deck sub/corners.nodes 'cons lagr' >nodes_hats.mpm
+add nodes_hats 2 nodes_hats.mpm:9:1:error "hats need the box's lattice; expected 'cons nits'"
+nodes_deck sub/corners.nodes 'pert 0.1 1' >nodes_moved.mpm
+add nodes_moved 2 nodes_moved.mpm:9:1:error "nodes of a file stay where they are; leave 'pert' out"
+
 # --- running, in two rows: a deck is short, starting the program is not ---
 limit=
 command -v timeout >/dev/null && limit='timeout 30'
