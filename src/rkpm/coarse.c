@@ -30,7 +30,7 @@ static void set_corners(struct coarse *coarse)
 {
     const struct body *body = coarse->body;
     const struct node_box *box = body->box;
-    int32_t stride[3];
+    int32_t stride[3] = {0};
     set_strides(coarse, stride);
     for (size_t row = 0; row < body->nodes; row++)
         for (int c = 0; c < coarse->corners; c++) {

@@ -87,7 +87,7 @@ void rkpm_dynamic_forces(struct dynamic *dynamic)
     rkpm_dynamic_wall(dynamic);
 #pragma omp parallel for schedule(static) if (dynamic->nodes >= DYNAMIC_FEW_NODES)
     for (size_t n = 0; n < dynamic->nodes; n++) {
-        double force[3];
+        double force[3] = {0};
         (dynamic->dimension == 2 ? collect_2 : collect_3)(dynamic, n, force);
         if (n >= dynamic->count) { /* what the body does to a fixed node */
             dynamic->wall_force[n] = -force[axis];
