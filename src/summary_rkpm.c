@@ -11,7 +11,7 @@ static void print_box(const struct rkpm *rkpm, const struct rkpm_level *level, F
         fprintf(stream, "%s%ld", a == 0 ? " " : " x ", level->box.numbers[a]);
     for (int a = 0; a < level->box.dimension; a++)
         fprintf(stream, "%s%.6g", a == 0 ? ", spacing " : " ", level->box.spacing[a]);
-    const bool has_body = rkpm_has_body(rkpm);
+    const bool has_body = scene_rkpm_has_body(rkpm->words);
     const struct solver *solver = rkpm->words->problem == PROBLEM_CREEP ? rkpm->creep.solver : &level->solver;
     if (rkpm->words->problem != PROBLEM_APPROXIMATION)
         fprintf(stream, "; %d unknowns, matrix of %.0f bytes at most%s", has_body ? solver->count : level->system.count,

@@ -8,7 +8,6 @@
 #include <string.h>
 
 static const size_t MOST_NODES = 10000000;
-enum { MOST_ELEMENTS = 16 }; /* of nsni */
 
 static bool was_given(const struct reader *reader, const char *name)
 {
@@ -74,9 +73,9 @@ static void check_pairs(struct reader *reader)
                                                                     "contact shows; expected 'wall spring', or 'mode semi'");
     if (scene->n_materials > 0 && scene->materials[0].material.law == &law_powl && scene->fixed_step == 0)
         diagnostics_error(reader->diagnostics, scene->materials[0].place, "the time step that 'powl' allows is not known before; expected 'dtfx step'");
-    if (scene->n_materials > 0 && scene->materials[0].material.n_elements > MOST_ELEMENTS && rkpm->integration == INTEGRATION_NSNI)
+    if (scene->n_materials > 0 && scene->materials[0].material.n_elements > RKPM_STABILISED_ELEMENTS && rkpm->integration == INTEGRATION_NSNI)
         diagnostics_error(reader->diagnostics, scene->materials[0].place, "'inte nsni' takes at most %d elements; expected fewer, or 'inte snni'",
-                          MOST_ELEMENTS);
+                          RKPM_STABILISED_ELEMENTS);
     if (scene->n_materials > 1)
         diagnostics_error(reader->diagnostics, scene->materials[1].place, "'prob dynamic' has one body of one material; expected 'nmat 1'");
 }

@@ -11,8 +11,8 @@
 static const double MOST_NODES = 1e7, LARGEST_SUPPORT = 20;
 /* Above this, times the spacing, the trace between boundary nodes is held more than it can follow (spec 4). */
 static const double LARGEST_BETA = 1e3;
-/* lambda + 2 mu over Young's modulus from which on linear functions lock: Poisson's ratio 0.483. */
-static const double LARGEST_STIFFEST = 10;
+/* Young's modulus over that of strain along one axis below which linear functions lock: Poisson's ratio 0.483. */
+static const double LOCKING_YOUNG = 0.1;
 /* Times the spacing, and of elastic with the modulus of strain along one axis for that of Young: below the first a penalty hardly
  * holds; below the second Nitsche's method has a negative system, for where only the outermost nodes move the gradient is at least
  * the value over the spacing. */
@@ -56,7 +56,7 @@ static void check_needs(struct reader *reader)
 {
     const struct scene_rkpm *rkpm = &reader->scene->rkpm;
     const bool is_solved = rkpm->problem != PROBLEM_APPROXIMATION, is_creep = rkpm->problem == PROBLEM_CREEP;
-    const bool is_elastic = rkpm->problem == PROBLEM_ELASTIC || is_creep, has_norms = !is_creep;
+    const bool is_elastic = scene_rkpm_has_body(rkpm), has_norms = !is_creep;
     const bool is_gauss = rkpm->integration == INTEGRATION_GAUSS;
     const bool has_beta = rkpm->constraint == CONSTRAINT_PENALTY || rkpm->constraint == CONSTRAINT_NITSCHE;
     const struct {
@@ -291,7 +291,7 @@ static void make_levels(struct reader *reader)
 static void check_file(struct reader *reader)
 {
     struct scene_rkpm *rkpm = &reader->scene->rkpm;
-    const bool has_body = rkpm->problem == PROBLEM_ELASTIC || rkpm->problem == PROBLEM_CREEP;
+    const bool has_body = scene_rkpm_has_body(rkpm);
     if (!rkpm->file)
         return;
     const struct deck_place place = place_of(reader, "file");
@@ -346,19 +346,20 @@ static void check_wave(struct reader *reader)
     }
 }
 
-/* lambda + 2 mu in Young's moduli, where volume is not free to change. */
-static double stiffest(const struct scene_rkpm *rkpm)
+/* Young's modulus over that of strain along one axis alone, which tractions of nearly incompressible bodies follow. */
+static double relative_young(const struct scene_rkpm *rkpm)
 {
-    const bool is_elastic = rkpm->problem == PROBLEM_ELASTIC || rkpm->problem == PROBLEM_CREEP;
-    const bool is_free = rkpm->dimension == 1 || (rkpm->dimension == 2 && rkpm->plane == PLANE_STRESS);
-    return is_elastic && !is_free ? (1 - rkpm->poisson) / ((1 + rkpm->poisson) * (1 - 2 * rkpm->poisson)) : 1;
+    const double nu = rkpm->poisson;
+    if (!scene_rkpm_has_body(rkpm) || rkpm->dimension == 1)
+        return 1;
+    return rkpm->dimension == 2 && rkpm->plane == PLANE_STRESS ? (1 - nu) * (1 + nu) : (1 + nu) * (1 - 2 * nu) / (1 - nu);
 }
 
 /* Linear functions can't bend without a change of volume. */
 static void check_locking(struct reader *reader)
 {
     const struct scene_rkpm *rkpm = &reader->scene->rkpm;
-    if (was_given(reader, "modu") && rkpm->basis != BASIS_QUADRATIC && stiffest(rkpm) > LARGEST_STIFFEST)
+    if (was_given(reader, "modu") && rkpm->basis != BASIS_QUADRATIC && relative_young(rkpm) < LOCKING_YOUNG)
         diagnostics_warning(reader->diagnostics, place_of(reader, "modu"),
                             "Poisson's ratio %g makes a body of linear functions much too stiff (locking); take basi quad", rkpm->poisson);
 }
@@ -370,15 +371,6 @@ static double largest_spacing(const struct scene_rkpm *rkpm, const long numbers[
     for (int a = 0; a < rkpm->dimension; a++)
         largest = fmax(largest, (rkpm->box[2 * a + 1] - rkpm->box[2 * a]) / fmax((double)(numbers[a] - 1), 1));
     return largest;
-}
-
-/* Young's modulus over that of strain along one axis alone, which tractions of nearly incompressible bodies follow. */
-static double relative_young(const struct scene_rkpm *rkpm)
-{
-    const double nu = rkpm->poisson;
-    if (rkpm->problem != PROBLEM_ELASTIC || rkpm->dimension == 1)
-        return 1;
-    return rkpm->dimension == 2 && rkpm->plane == PLANE_STRESS ? (1 - nu) * (1 + nu) : (1 + nu) * (1 - 2 * nu) / (1 - nu);
 }
 
 static void check_beta(struct reader *reader)
@@ -408,8 +400,7 @@ static void check_beta(struct reader *reader)
 /* What a body keeps: as many points as the rule has, each with the nodes of a support. */
 static double pairs_of(const struct scene_rkpm *rkpm, const long numbers[3])
 {
-    const bool is_gauss = rkpm->integration == INTEGRATION_GAUSS;
-    const double along = !is_gauss ? 1 : rkpm->gauss > 0 ? (double)rkpm->gauss : rkpm->basis == BASIS_QUADRATIC ? 5 : 2;
+    const double along = rkpm->integration == INTEGRATION_GAUSS ? scene_rkpm_gauss(rkpm) : 1;
     double pairs = 1;
     for (int a = 0; a < rkpm->dimension; a++)
         pairs *= along * (double)numbers[a] * fmin(2 * rkpm->support[a], (double)numbers[a]);
@@ -432,7 +423,7 @@ static double entries_of(const struct scene_rkpm *rkpm, const long numbers[3])
 static void check_room(struct reader *reader)
 {
     const struct scene_rkpm *rkpm = &reader->scene->rkpm;
-    const bool is_body = rkpm->problem == PROBLEM_ELASTIC || rkpm->problem == PROBLEM_CREEP;
+    const bool is_body = scene_rkpm_has_body(rkpm);
     for (size_t i = 0; i < rkpm->n_levels && rkpm->problem != PROBLEM_APPROXIMATION; i++) {
         const double needed = is_body ? pairs_of(rkpm, rkpm->levels[i]) : entries_of(rkpm, rkpm->levels[i]), most = is_body ? MOST_PAIRS : MOST_ENTRIES;
         if (needed > most)

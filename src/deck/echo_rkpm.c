@@ -16,7 +16,7 @@ static bool has_word(const struct scene_rkpm *rkpm, const char *name)
 {
     static const char *const dynamic[] = {"mode", "spin", "stab", NULL};
     const bool is_dynamic = rkpm->problem == PROBLEM_DYNAMIC, is_solved = rkpm->problem != PROBLEM_APPROXIMATION && !is_dynamic;
-    const bool is_creep = rkpm->problem == PROBLEM_CREEP, is_body = is_creep || rkpm->problem == PROBLEM_ELASTIC;
+    const bool is_creep = rkpm->problem == PROBLEM_CREEP, is_body = scene_rkpm_has_body(rkpm);
     const bool has_beta = rkpm->constraint == CONSTRAINT_PENALTY || rkpm->constraint == CONSTRAINT_NITSCHE;
     for (int i = 0; dynamic[i]; i++)
         if (strcmp(name, dynamic[i]) == 0)
@@ -102,7 +102,7 @@ static void echo_dynamic(const struct scene_dynamic *dynamic, FILE *stream)
 static void echo_held(const struct scene_rkpm *rkpm, FILE *stream)
 {
     static const char *const sides[] = {"x0", "x1", "y0", "y1", "z0", "z1"};
-    if (rkpm->problem != PROBLEM_ELASTIC && rkpm->problem != PROBLEM_CREEP)
+    if (!scene_rkpm_has_body(rkpm))
         return;
     fprintf(stream, "  held");
     for (int side = 0; side < 6; side++)

@@ -12,6 +12,8 @@
 /* Shape functions of the places at the start, or of those of now. */
 enum kernel_mode { KERNEL_LAGRANGIAN, KERNEL_SEMI };
 
+enum { RKPM_STABILISED_ELEMENTS = 16 }; /* most elements of a law with nsni */
+
 enum rkpm_wall { RKPM_WALL_NONE, RKPM_WALL_SPRING, RKPM_WALL_NATURAL };
 
 struct scene_dynamic {

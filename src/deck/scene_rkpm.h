@@ -84,4 +84,16 @@ struct scene_rkpm {
     struct deck_place place; /* of the word rkpm */
 };
 
+/* Whether displacements of a body at rest are looked for. */
+static inline bool scene_rkpm_has_body(const struct scene_rkpm *rkpm)
+{
+    return rkpm->problem == PROBLEM_ELASTIC || rkpm->problem == PROBLEM_CREEP;
+}
+
+/* Gauss points of a cell along an axis. */
+static inline int scene_rkpm_gauss(const struct scene_rkpm *rkpm)
+{
+    return rkpm->gauss > 0 ? (int)rkpm->gauss : rkpm->basis == BASIS_QUADRATIC ? 5 : 2;
+}
+
 #endif

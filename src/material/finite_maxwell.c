@@ -9,24 +9,9 @@
 
 #include <math.h>
 
-/* As in the list of words of the row; columns of history: J less 1, b less 1. */
-enum { WORD_EXPONENTIAL = 1, WORD_MIDPOINT = 2 };
+/* Columns of history: J less 1, b less 1, elements. */
 enum { HISTORY_SHAPE = 1, HISTORY_ELEMENTS = 7 };
 enum { PASS = 8 }; /* elements whose factors are kept at a time */
-
-static const char *prepare(struct material *material)
-{
-    const double poisson = material->parameter[LAW_POISSON];
-    double young = material->parameter[LAW_YOUNG];
-    if ((material->words & WORD_EXPONENTIAL) && (material->words & WORD_MIDPOINT))
-        return "there is one rule for the step; expected exponential or midpoint";
-    for (int i = 0; i < material->n_elements; i++) {
-        material->elements[i].shear = material->elements[i].strength / (2 * (1 + poisson));
-        young += material->elements[i].strength;
-    }
-    law_set_elastic(material, young, poisson, true);
-    return NULL;
-}
 
 THREADS_INLINE void deviate(double s[6])
 {
@@ -127,7 +112,7 @@ static void update_points(const struct law_batch *batch, const struct pass *pass
 static void update(const struct law_batch *batch)
 {
     const struct material *material = batch->material;
-    const enum maxwell_rule rule = material->words & WORD_MIDPOINT ? MAXWELL_MIDPOINT : MAXWELL_EXPONENTIAL;
+    const enum maxwell_rule rule = maxwell_rule_of(material);
     struct pass pass = {.is_first = true, .spring = material->shear_modulus};
     find_scales(batch);
     do {
@@ -156,12 +141,12 @@ const struct law law_fmax = {
     .element = (const struct argument[]){{"modulus", "stress", ARGUMENT_REAL, LIMIT_POSITIVE},
                                          {"time", "time", ARGUMENT_REAL, LIMIT_POSITIVE},
                                          {0}},
-    .words = (const char *const[]){"exponential", "midpoint", NULL},
+    .words = (const char *const[]){MAXWELL_RULES, NULL},
     .history = HISTORY_ELEMENTS,
     .columns = {COLUMN_NONE},
     .follows_time = true,
     .stabilisation = 1,
     .viscous_work = 1,
-    .prepare = prepare,
+    .prepare = maxwell_prepare,
     .update = update,
 };

@@ -6,9 +6,6 @@
 
 #include <math.h>
 
-/* As in the list of words of the row. */
-enum { WORD_EXPONENTIAL = 1, WORD_MIDPOINT = 2, WORD_VOLUME = 4 };
-
 struct maxwell_factors maxwell_factors(enum maxwell_rule rule, double time_step, double relaxation_time)
 {
     const double x = time_step / relaxation_time;
@@ -16,17 +13,21 @@ struct maxwell_factors maxwell_factors(enum maxwell_rule rule, double time_step,
     return (struct maxwell_factors){exp(-x), rule == MAXWELL_MIDPOINT ? exp(-0.5 * x) : mean_decay};
 }
 
-/* The moduli at once, mu_0 and K, limit the time step; those of the elements have the same Poisson's ratio. */
-static const char *prepare(struct material *material)
+enum maxwell_rule maxwell_rule_of(const struct material *material)
+{
+    return material->words & MAXWELL_WORD_MIDPOINT ? MAXWELL_MIDPOINT : MAXWELL_EXPONENTIAL;
+}
+
+const char *maxwell_prepare(struct material *material)
 {
     const double poisson = material->parameter[LAW_POISSON];
     double young = material->parameter[LAW_YOUNG];
-    if ((material->words & WORD_EXPONENTIAL) && (material->words & WORD_MIDPOINT))
+    if ((material->words & MAXWELL_WORD_EXPONENTIAL) && (material->words & MAXWELL_WORD_MIDPOINT))
         return "there is one rule for the step; expected exponential or midpoint";
     for (int i = 0; i < material->n_elements; i++) {
         struct law_element *element = &material->elements[i];
         element->shear = element->strength / (2 * (1 + poisson));
-        element->bulk = material->words & WORD_VOLUME ? element->strength / (3 * (1 - 2 * poisson)) : 0;
+        element->bulk = material->words & MAXWELL_WORD_VOLUME ? element->strength / (3 * (1 - 2 * poisson)) : 0;
         young += element->strength;
     }
     law_set_elastic(material, young, poisson, true);
@@ -78,7 +79,7 @@ static void update_element(const struct law_batch *batch, int i, struct maxwell_
 static void update(const struct law_batch *batch)
 {
     const struct material *material = batch->material;
-    const enum maxwell_rule rule = material->words & WORD_MIDPOINT ? MAXWELL_MIDPOINT : MAXWELL_EXPONENTIAL;
+    const enum maxwell_rule rule = maxwell_rule_of(material);
     double shear = material->shear_modulus, bulk = material->bulk_modulus;
     for (int i = 0; i < material->n_elements; i++) {
         const struct law_element *element = &material->elements[i];
@@ -102,11 +103,11 @@ const struct law law_maxw = {
     .element = (const struct argument[]){{"modulus", "stress", ARGUMENT_REAL, LIMIT_POSITIVE},
                                          {"time", "time", ARGUMENT_REAL, LIMIT_POSITIVE},
                                          {0}},
-    .words = (const char *const[]){"exponential", "midpoint", "volume", NULL},
+    .words = (const char *const[]){MAXWELL_RULES, "volume", NULL},
     .columns = {COLUMN_NONE},
     .rotates = true,
     .follows_time = true,
     .viscous_work = 1,
-    .prepare = prepare,
+    .prepare = maxwell_prepare,
     .update = update,
 };

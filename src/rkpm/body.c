@@ -19,30 +19,12 @@ struct moduli body_moduli(int dimension, enum plane_mode mode, double young, dou
 
 /* --- numbering --- */
 
-/* Axes in the order of their numbers of nodes, fewest first. */
-static void order_axes(const struct node_box *box, int order[3])
-{
-    for (int a = 0; a < 3; a++) {
-        int place = a;
-        for (; place > 0 && box->numbers[order[place - 1]] > box->numbers[a]; place--)
-            order[place] = order[place - 1];
-        order[place] = a;
-    }
-}
-
 static void number_lattice(struct body *body)
 {
-    const struct node_box *box = body->box;
-    const long stride[3] = {1, box->numbers[0], box->numbers[0] * box->numbers[1]};
     int order[3];
-    order_axes(box, order);
+    box_order_axes(body->box->numbers, order);
     for (size_t n = 0; n < body->nodes; n++) {
-        size_t rest = n, node = 0;
-        for (int i = 0; i < 3; i++) {
-            const size_t number = (size_t)box->numbers[order[i]];
-            node += rest % number * (size_t)stride[order[i]];
-            rest /= number;
-        }
+        const size_t node = box_node(body->box, order, n);
         body->number[node] = (int32_t)n;
         body->node[n] = (int32_t)node;
     }
@@ -67,7 +49,7 @@ static void number_scattered(struct body *body)
 {
     struct placed *placed = memory_array(body->nodes, sizeof *placed, "the linear system");
     int order[3];
-    order_axes(body->box, order);
+    box_order_axes(body->box->numbers, order);
     for (size_t n = 0; n < body->nodes; n++) {
         placed[n].node = (int32_t)n;
         for (int i = 0; i < 3; i++)

@@ -13,12 +13,7 @@ enum { CORNERS = 8 };
 static void set_strides(const struct coarse *coarse, int32_t stride[3])
 {
     int order[3];
-    for (int a = 0; a < 3; a++) {
-        int place = a;
-        for (; place > 0 && coarse->cells[order[place - 1]] > coarse->cells[a]; place--)
-            order[place] = order[place - 1];
-        order[place] = a;
-    }
+    box_order_axes(coarse->cells, order);
     int32_t product = 1;
     for (int i = 0; i < 3; i++) {
         stride[order[i]] = product;

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { CHUNK = 64, MOST_ELEMENTS = 16 }; /* nodes at a time; elements whose factors are kept */
+enum { CHUNK = 64 }; /* nodes at a time */
 
 /* Stresses in the order xx yy zz yz xz xy. */
 static const int place[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}};
@@ -136,8 +136,8 @@ THREADS_INLINE void load_node(struct dynamic *dynamic, size_t node, size_t slot,
 struct gradient_law {
     double spring, bulk;
     int n_elements;
-    double shear[MOST_ELEMENTS];
-    struct maxwell_factors factors[MOST_ELEMENTS];
+    double shear[RKPM_STABILISED_ELEMENTS];
+    struct maxwell_factors factors[RKPM_STABILISED_ELEMENTS];
 };
 
 static struct gradient_law gradient_law_of(const struct dynamic *dynamic)

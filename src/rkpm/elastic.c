@@ -29,14 +29,6 @@ static void give_faces(struct rkpm *rkpm, struct body *body)
     }
 }
 
-static void stop_at(struct rkpm *rkpm, const double x[3])
-{
-    struct instability *instability = &rkpm->instability;
-    *instability = (struct instability){.is_stopped = true, .particle = -1};
-    snprintf(instability->cause, sizeof instability->cause, "too few nodes are near the point (%.6g, %.6g, %.6g) for linear functions", x[0], x[1], x[2]);
-    snprintf(instability->advice, sizeof instability->advice, "take a larger supp");
-}
-
 void rkpm_elastic_open(struct rkpm *rkpm, struct rkpm_level *level)
 {
     const struct scene_rkpm *words = rkpm->words;
@@ -64,7 +56,7 @@ static bool has_neighbours(struct rkpm *rkpm, const struct body *body)
 {
     if (body->inside.lowered == 0 && body->faces.lowered == 0)
         return true;
-    stop_at(rkpm, body->inside.lowered > 0 ? body->inside.bad : body->faces.bad);
+    rkpm_stop_at(rkpm, body->inside.lowered > 0 ? body->inside.bad : body->faces.bad);
     return false;
 }
 

@@ -50,7 +50,7 @@ static void measure_field(struct rkpm *rkpm, struct rkpm_level *level)
 void rkpm_measure(struct rkpm *rkpm, struct rkpm_level *level)
 {
     struct rkpm_result *result = &level->result;
-    rkpm_has_body(rkpm) ? rkpm_elastic_measure(rkpm, level) : measure_field(rkpm, level);
+    scene_rkpm_has_body(rkpm->words) ? rkpm_elastic_measure(rkpm, level) : measure_field(rkpm, level);
     result->l2_rate = rate(rkpm, level, level[level == rkpm->levels ? 0 : -1].result.l2, result->l2);
     result->h1_rate = rate(rkpm, level, level[level == rkpm->levels ? 0 : -1].result.h1, result->h1);
     result->enlarged = level->shape.enlarged;

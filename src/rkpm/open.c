@@ -23,17 +23,6 @@ static void create_box(struct rkpm_level *level, const struct scene_rkpm *words,
     }
 }
 
-bool rkpm_is_boundary(const struct node_box *box, size_t node)
-{
-    bool is_boundary = false;
-    for (int a = 0; a < box->dimension; a++) {
-        const size_t place = node % (size_t)box->numbers[a];
-        is_boundary = is_boundary || place == 0 || place + 1 == (size_t)box->numbers[a];
-        node /= (size_t)box->numbers[a];
-    }
-    return is_boundary;
-}
-
 /* On the lattice; those inside moved at random by up to `jitter` spacings along each axis. */
 static void create_lattice(struct rkpm_level *level, const double jitter[2])
 {
@@ -44,7 +33,7 @@ static void create_lattice(struct rkpm_level *level, const double jitter[2])
         size_t rest = i;
         for (int a = 0; a < box->dimension; a++) {
             level->x[a][i] = box->low[a] + box->spacing[a] * (double)(rest % (size_t)box->numbers[a]);
-            if (jitter[0] > 0 && !rkpm_is_boundary(box, i))
+            if (jitter[0] > 0 && !box_is_boundary(box, i))
                 level->x[a][i] += 2 * jitter[0] * box->spacing[a] * scatter((uint64_t)jitter[1], i, (uint64_t)a);
             rest /= (size_t)box->numbers[a];
         }
@@ -78,8 +67,8 @@ static void open_level(struct rkpm *rkpm, struct rkpm_level *level, const long n
     }
     level->beta = words->beta_over_spacing ? words->beta / smallest : words->beta;
     rkpm_shape_open(&level->shape, level->box.dimension, words->basis, level->count, level->x, radius);
-    level->coefficient = memory_array(level->count * (rkpm_has_body(rkpm) ? (size_t)words->dimension : 1), sizeof(double), "coefficients");
-    if (rkpm_has_body(rkpm)) {
+    level->coefficient = memory_array(level->count * (scene_rkpm_has_body(rkpm->words) ? (size_t)words->dimension : 1), sizeof(double), "coefficients");
+    if (scene_rkpm_has_body(rkpm->words)) {
         rkpm_elastic_open(rkpm, level);
         return;
     }
@@ -104,7 +93,7 @@ static void create_store(struct rkpm *rkpm)
         store->integer[COLUMN_ID][i] = store->index_of_id[i] = (int32_t)i;
         for (int a = 0; a < 3; a++)
             store->real[COLUMN_POSITION][a][i] = store->real[COLUMN_INITIAL_POSITION][a][i] = x[a];
-        if (!rkpm_has_body(rkpm))
+        if (!scene_rkpm_has_body(rkpm->words))
             store->real[COLUMN_EXACT][0][i] = field_value(&rkpm->field, x);
     }
 }
@@ -124,9 +113,9 @@ struct rkpm *rkpm_open(const struct scene *scene, struct timers *timers)
     rkpm->words = words;
     rkpm->timers = timers;
     rkpm->field = (struct field){words->function, (int)words->dimension, words->wave_number, {words->box[0], words->box[1]}};
-    if (rkpm_has_body(rkpm))
+    if (scene_rkpm_has_body(rkpm->words))
         rkpm->deformation = deformation_of(words);
-    rkpm->gauss = or_default(words->gauss, words->basis == BASIS_QUADRATIC ? 5 : 2);
+    rkpm->gauss = scene_rkpm_gauss(words);
     rkpm->boundary_gauss = or_default(words->boundary_gauss, 2);
     rkpm->norm_gauss = or_default(words->norm_gauss, words->problem == PROBLEM_HELMHOLTZ ? 5 : 2);
     rkpm->n_levels = words->n_levels;

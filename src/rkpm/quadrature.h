@@ -3,16 +3,9 @@
 #ifndef RKPM_QUADRATURE_H
 #define RKPM_QUADRATURE_H
 
-#include <stddef.h>
+#include "rkpm/box.h"
 
 enum { QUADRATURE_MOST = 10 }; /* points per cell and axis */
-
-/* Nodes in a box, x fastest; axes beyond the dimension have one node at 0. */
-struct node_box {
-    int dimension;
-    long numbers[3];
-    double low[3], spacing[3];
-};
 
 /* A point: where it is, its weight, and on a face which way it looks. */
 struct quadrature_point {

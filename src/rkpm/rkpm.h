@@ -82,11 +82,11 @@ void rkpm_exchange(struct rkpm *rkpm, struct checkpoint *checkpoint);
 
 /* --- parts --- */
 
-/* Shape functions at a point; where even linear functions can't be kept the problem ends, and the message says where. */
-const struct shape_row *rkpm_row(struct rkpm *rkpm, struct rkpm_level *level, const double x[3], enum gradient_form gradient);
+/* Ends the problem, as even linear functions can't be kept at a point; the message says where. */
+void rkpm_stop_at(struct rkpm *rkpm, const double x[3]);
 
-/* Whether a node lies on the boundary of the box. */
-bool rkpm_is_boundary(const struct node_box *box, size_t node);
+/* Shape functions at a point; where even linear functions can't be kept the problem ends. */
+const struct shape_row *rkpm_row(struct rkpm *rkpm, struct rkpm_level *level, const double x[3], enum gradient_form gradient);
 
 /* Makes room for the system of a level, sums it up, solves it. */
 void rkpm_system_open(struct rkpm *rkpm, struct rkpm_level *level);
@@ -103,8 +103,7 @@ void rkpm_elastic_show(struct rkpm *rkpm, struct rkpm_level *level);
 /* The next step of a problem in time. */
 void rkpm_elastic_step(struct rkpm *rkpm, struct rkpm_level *level);
 
-/* Whether displacements are looked for; whether there is a level or step to come. */
-bool rkpm_has_body(const struct rkpm *rkpm);
+/* Whether there is a level or step to come. */
 bool rkpm_goes_on(const struct rkpm *rkpm);
 
 /* Takes the wave number of a level into the exact solution. */

@@ -6,16 +6,19 @@
 #include <math.h>
 #include <stdio.h>
 
+void rkpm_stop_at(struct rkpm *rkpm, const double x[3])
+{
+    struct instability *instability = &rkpm->instability;
+    *instability = (struct instability){.is_stopped = true, .particle = -1};
+    snprintf(instability->cause, sizeof instability->cause, "too few nodes are near the point (%.6g, %.6g, %.6g) for linear functions", x[0], x[1], x[2]);
+    snprintf(instability->advice, sizeof instability->advice, "take a larger supp");
+}
+
 const struct shape_row *rkpm_row(struct rkpm *rkpm, struct rkpm_level *level, const double x[3], enum gradient_form gradient)
 {
     const struct shape_row *row = rkpm_shape_at(&level->shape, x, gradient);
-    if (row->order < 1 && !rkpm->instability.is_stopped) {
-        struct instability *instability = &rkpm->instability;
-        *instability = (struct instability){.is_stopped = true, .particle = -1};
-        snprintf(instability->cause, sizeof instability->cause, "too few nodes are near the point (%.6g, %.6g, %.6g) for linear functions", x[0], x[1],
-                 x[2]);
-        snprintf(instability->advice, sizeof instability->advice, "take a larger supp");
-    }
+    if (row->order < 1 && !rkpm->instability.is_stopped)
+        rkpm_stop_at(rkpm, x);
     return row;
 }
 
@@ -45,11 +48,6 @@ static void show(struct rkpm *rkpm, struct rkpm_level *level)
     }
 }
 
-bool rkpm_has_body(const struct rkpm *rkpm)
-{
-    return rkpm->words->problem == PROBLEM_ELASTIC || rkpm->words->problem == PROBLEM_CREEP;
-}
-
 bool rkpm_goes_on(const struct rkpm *rkpm)
 {
     return rkpm->words->problem == PROBLEM_CREEP ? rkpm->creep.next < rkpm->creep.n_steps : (size_t)rkpm->step < rkpm->n_levels;
@@ -75,14 +73,14 @@ struct instability rkpm_advance(struct rkpm *rkpm)
     timers_enter(rkpm->timers, PHASE_SYSTEM);
     if (rkpm->words->problem == PROBLEM_APPROXIMATION)
         approximate(rkpm, level);
-    else if (rkpm_has_body(rkpm))
+    else if (scene_rkpm_has_body(rkpm->words))
         rkpm_elastic_solve(rkpm, level);
     else
         rkpm_system_solve(rkpm, level);
     timers_enter(rkpm->timers, PHASE_SUMS);
     rkpm_measure(rkpm, level);
     if ((size_t)rkpm->step == rkpm->n_levels)
-        rkpm_has_body(rkpm) ? rkpm_elastic_show(rkpm, level) : show(rkpm, level);
+        scene_rkpm_has_body(rkpm->words) ? rkpm_elastic_show(rkpm, level) : show(rkpm, level);
     rkpm->updates += (double)level->count;
     if (!rkpm->instability.is_stopped && !isfinite(level->result.h1)) {
         rkpm->instability = (struct instability){.is_stopped = true, .particle = -1, .cause = "the solution is not finite",

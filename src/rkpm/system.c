@@ -36,35 +36,18 @@ static double wave_square(const struct rkpm *rkpm)
 
 /* --- unknowns --- */
 
-/* Axes in the order of their numbers of nodes, fewest first. */
-static void order_axes(const struct node_box *box, int order[3])
-{
-    for (int a = 0; a < 3; a++) {
-        int place = a;
-        for (; place > 0 && box->numbers[order[place - 1]] > box->numbers[a]; place--)
-            order[place] = order[place - 1];
-        order[place] = a;
-    }
-}
-
 static void number_unknowns(const struct rkpm *rkpm, struct rkpm_level *level)
 {
     struct rkpm_system *system = &level->system;
     const struct node_box *box = &level->box;
-    const long stride[3] = {1, box->numbers[0], box->numbers[0] * box->numbers[1]};
     int order[3];
-    order_axes(box, order);
+    box_order_axes(box->numbers, order);
     system->of_node = memory_array(level->count, sizeof *system->of_node, "unknowns");
     system->of_multiplier = memory_array(level->count, sizeof *system->of_multiplier, "unknowns");
     for (size_t n = 0; n < level->count; n++) {
-        size_t rest = n, node = 0;
-        for (int i = 0; i < 3; i++) {
-            const size_t number = (size_t)box->numbers[order[i]];
-            node += rest % number * (size_t)stride[order[i]];
-            rest /= number;
-        }
+        const size_t node = box_node(box, order, n);
         system->of_node[node] = system->count++;
-        system->of_multiplier[node] = has_multipliers(rkpm->words) && rkpm_is_boundary(box, node) ? system->count++ : -1;
+        system->of_multiplier[node] = has_multipliers(rkpm->words) && box_is_boundary(box, node) ? system->count++ : -1;
     }
 }
 

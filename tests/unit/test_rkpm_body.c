@@ -3,9 +3,8 @@
  * elimination, any number of threads, the frequency of a bar. */
 #include "base/memory.h"
 #include "base/threads.h"
-#include "check.h"
-#include "rkpm/rkpm.h"
-#include "scene_text.h"
+#include "diagonalise.h"
+#include "rkpm_fixture.h"
 
 /* --- exact displacements --- */
 
@@ -71,50 +70,6 @@ static void check_moduli(void)
 }
 
 /* --- problems --- */
-
-struct problem {
-    struct diagnostics *diagnostics;
-    struct deck_text *text;
-    struct scene *scene;
-    struct timers timers;
-    struct rkpm *rkpm;
-};
-
-static void open_problem(struct problem *problem, const char *block)
-{
-    *problem = (struct problem){.diagnostics = diagnostics_open()};
-    struct deck_builder deck = {0};
-    deck_add(&deck, "mpm3d test\nmeth rkpm\nrkpm\n%s\nends\nendi\n", block);
-    problem->text = text_open(problem->diagnostics);
-    text_include_memory(problem->text, "test", deck.text, deck.length);
-    free(deck.text);
-    problem->scene = reader_read(problem->text, problem->diagnostics);
-    if (diagnostics_errors(problem->diagnostics) > 0) {
-        diagnostics_print(problem->diagnostics, problem->text, stderr, false);
-        exit(1);
-    }
-    timers_start(&problem->timers);
-    problem->rkpm = rkpm_open(problem->scene, &problem->timers);
-}
-
-static void close_problem(struct problem *problem)
-{
-    rkpm_close(problem->rkpm);
-    scene_close(problem->scene);
-    text_close(problem->text);
-    diagnostics_close(problem->diagnostics);
-}
-
-static struct rkpm_result result_of(const char *block)
-{
-    struct problem problem;
-    open_problem(&problem, block);
-    for (size_t i = 0; i < problem.rkpm->n_levels; i++)
-        check_true("the problem is solved", !rkpm_advance(problem.rkpm).is_stopped);
-    const struct rkpm_result result = problem.rkpm->levels[problem.rkpm->n_levels - 1].result;
-    close_problem(&problem);
-    return result;
-}
 
 static void check_patch(const char *what, const char *words)
 {
@@ -225,24 +180,10 @@ static void check_threads(const char *block, double most_work)
 
 enum { BAR_MOST = 41 };
 
-/* Eigenvalues of a symmetric matrix by plane rotations. */
+/* Smallest and largest eigenvalue of a symmetric matrix. */
 static void find_eigenvalues(int n, double m[BAR_MOST][BAR_MOST], double *least, double *largest)
 {
-    for (int sweep = 0; sweep < 20; sweep++)
-        for (int p = 0; p < n; p++)
-            for (int q = p + 1; q < n; q++) {
-                const double angle = 0.5 * atan2(2 * m[p][q], m[q][q] - m[p][p]), c = cos(angle), s = sin(angle);
-                for (int k = 0; k < n; k++) {
-                    const double x = m[p][k], y = m[q][k];
-                    m[p][k] = c * x - s * y;
-                    m[q][k] = s * x + c * y;
-                }
-                for (int k = 0; k < n; k++) {
-                    const double x = m[k][p], y = m[k][q];
-                    m[k][p] = c * x - s * y;
-                    m[k][q] = s * x + c * y;
-                }
-            }
+    diagonalise(n, BAR_MOST, m[0]);
     *least = *largest = m[0][0];
     for (int i = 0; i < n; i++) {
         *least = fmin(*least, m[i][i]);

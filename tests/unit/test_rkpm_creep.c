@@ -3,9 +3,7 @@
  * the balance of each step, any number of threads. */
 #include "base/memory.h"
 #include "base/threads.h"
-#include "check.h"
-#include "rkpm/rkpm.h"
-#include "scene_text.h"
+#include "rkpm_fixture.h"
 
 /* --- a point in plane stress under sigma_xx = 1 from t = 0 on --- */
 
@@ -81,39 +79,6 @@ static void check_jump(void)
 }
 
 /* --- problems --- */
-
-struct problem {
-    struct diagnostics *diagnostics;
-    struct deck_text *text;
-    struct scene *scene;
-    struct timers timers;
-    struct rkpm *rkpm;
-};
-
-static void open_problem(struct problem *problem, const char *block)
-{
-    *problem = (struct problem){.diagnostics = diagnostics_open()};
-    struct deck_builder deck = {0};
-    deck_add(&deck, "mpm3d test\nmeth rkpm\nrkpm\n%s\nends\nendi\n", block);
-    problem->text = text_open(problem->diagnostics);
-    text_include_memory(problem->text, "test", deck.text, deck.length);
-    free(deck.text);
-    problem->scene = reader_read(problem->text, problem->diagnostics);
-    if (diagnostics_errors(problem->diagnostics) > 0) {
-        diagnostics_print(problem->diagnostics, problem->text, stderr, false);
-        exit(1);
-    }
-    timers_start(&problem->timers);
-    problem->rkpm = rkpm_open(problem->scene, &problem->timers);
-}
-
-static void close_problem(struct problem *problem)
-{
-    rkpm_close(problem->rkpm);
-    scene_close(problem->scene);
-    text_close(problem->text);
-    diagnostics_close(problem->diagnostics);
-}
 
 /* Steps end at changes of the load and at the end, and no step is longer than asked for. */
 static void check_steps(void)

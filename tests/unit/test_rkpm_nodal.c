@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/threads.h"
 #include "check.h"
+#include "diagonalise.h"
 #include "random.h"
 #include "rkpm/cells.h"
 #include "rkpm/nodal.h"
@@ -314,31 +315,11 @@ static void add_row(struct stiffness *stiffness, double weight, int n, const int
         }
 }
 
-/* Smallest eigenvalue beyond the zero ones, by plane rotations (Jacobi); and how many are zero. */
+/* Smallest eigenvalue beyond the zero ones; and how many are zero. */
 static double softest(struct stiffness *stiffness, int *zeros)
 {
-    double(*m)[UNKNOWNS] = stiffness->k, apart = 1, all = 1;
-    for (int sweep = 0; sweep < 30 && apart > 1e-26 * all; sweep++) {
-        apart = all = 0;
-        for (int p = 0; p < UNKNOWNS; p++)
-            for (int q = p + 1; q < UNKNOWNS; q++) {
-                apart += m[p][q] * m[p][q];
-                all += m[p][p] * m[p][p];
-                if (m[p][q] == 0)
-                    continue;
-                const double angle = 0.5 * atan2(2 * m[p][q], m[q][q] - m[p][p]), c = cos(angle), s = sin(angle);
-                for (int k = 0; k < UNKNOWNS; k++) {
-                    const double x = m[p][k], y = m[q][k];
-                    m[p][k] = c * x - s * y;
-                    m[q][k] = s * x + c * y;
-                }
-                for (int k = 0; k < UNKNOWNS; k++) {
-                    const double x = m[k][p], y = m[k][q];
-                    m[k][p] = c * x - s * y;
-                    m[k][q] = s * x + c * y;
-                }
-            }
-    }
+    double(*m)[UNKNOWNS] = stiffness->k;
+    diagonalise(UNKNOWNS, UNKNOWNS, m[0]);
     double least = INFINITY;
     *zeros = 0;
     for (int i = 0; i < UNKNOWNS; i++)

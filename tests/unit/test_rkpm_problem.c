@@ -3,10 +3,8 @@
  * values at the boundary, one level after another. */
 #include "base/banded.h"
 #include "base/memory.h"
-#include "check.h"
 #include "random.h"
-#include "rkpm/rkpm.h"
-#include "scene_text.h"
+#include "rkpm_fixture.h"
 
 /* --- quadrature: n points integrate polynomials of degree 2 n - 1 --- */
 
@@ -105,50 +103,6 @@ static void check_banded(size_t count, size_t width)
 
 /* --- problems --- */
 
-struct problem {
-    struct diagnostics *diagnostics;
-    struct deck_text *text;
-    struct scene *scene;
-    struct timers timers;
-    struct rkpm *rkpm;
-};
-
-static struct problem solve(const char *block)
-{
-    struct problem problem = {.diagnostics = diagnostics_open()};
-    struct deck_builder deck = {0};
-    deck_add(&deck, "mpm3d test\nmeth rkpm\nrkpm\n%s\nends\nendi\n", block);
-    problem.text = text_open(problem.diagnostics);
-    text_include_memory(problem.text, "test", deck.text, deck.length);
-    free(deck.text);
-    problem.scene = reader_read(problem.text, problem.diagnostics);
-    if (diagnostics_errors(problem.diagnostics) > 0) {
-        diagnostics_print(problem.diagnostics, problem.text, stderr, false);
-        exit(1);
-    }
-    timers_start(&problem.timers);
-    problem.rkpm = rkpm_open(problem.scene, &problem.timers);
-    for (size_t i = 0; i < problem.rkpm->n_levels; i++)
-        check_true("the problem is solved", !rkpm_advance(problem.rkpm).is_stopped);
-    return problem;
-}
-
-static void close_problem(struct problem *problem)
-{
-    rkpm_close(problem->rkpm);
-    scene_close(problem->scene);
-    text_close(problem->text);
-    diagnostics_close(problem->diagnostics);
-}
-
-static struct rkpm_result result_of(const char *block)
-{
-    struct problem problem = solve(block);
-    const struct rkpm_result result = problem.rkpm->levels[problem.rkpm->n_levels - 1].result;
-    close_problem(&problem);
-    return result;
-}
-
 /* On a uniform grid shape functions of a bilinear basis are zero on faces that their node is not on, so that all methods pass
  * the patch test (spec rkpm 9, no. 10); in one dimension so does the linear basis. */
 static void check_patches(void)
@@ -182,11 +136,13 @@ static void check_axes(void)
 /* With boundary values held by transformation the solution has them at boundary nodes. */
 static void check_boundary(void)
 {
-    struct problem problem = solve("dime 3 node box 0 1 0 1 0 1 4 5 6 supp 1.75 prob poisson func expo cons tran");
+    struct problem problem;
+    open_problem(&problem, "dime 3 node box 0 1 0 1 0 1 4 5 6 supp 1.75 prob poisson func expo cons tran");
+    solve_problem(&problem);
     const struct store *store = problem.rkpm->store;
     double worst = 0;
     for (size_t n = 0; n < store->count; n++)
-        if (rkpm_is_boundary(&problem.rkpm->levels[0].box, n))
+        if (box_is_boundary(&problem.rkpm->levels[0].box, n))
             worst = fmax(worst, fabs(store->real[COLUMN_FIELD][0][n] - store->real[COLUMN_EXACT][0][n]));
     check_near("boundary nodes have the values given", worst, 0, 1e-12);
     close_problem(&problem);
@@ -195,7 +151,9 @@ static void check_boundary(void)
 /* A level has the result that it has alone, and rates are those between levels. */
 static void check_levels(void)
 {
-    struct problem problem = solve("dime 1 node box 0 1 6 refi 11 21 supp 2 prob poisson func sine cons nits grad implicit");
+    struct problem problem;
+    open_problem(&problem, "dime 1 node box 0 1 6 refi 11 21 supp 2 prob poisson func sine cons nits grad implicit");
+    solve_problem(&problem);
     const struct rkpm_level *levels = problem.rkpm->levels;
     const struct rkpm_result alone = result_of("dime 1 node box 0 1 21 supp 2 prob poisson func sine cons nits grad implicit");
     check_near("a level is what it is alone", levels[1].result.l2, alone.l2, 0);
