@@ -35,6 +35,12 @@ static bool goes_on(const struct run *run)
     return rkpm_goes_on(run->rkpm);
 }
 
+/* Output comes after the last level or step, whatever single precision makes of its time. */
+static bool has_ended(const struct run *run)
+{
+    return !rkpm_goes_on(run->rkpm);
+}
+
 static void exchange(struct run *run, struct checkpoint *checkpoint)
 {
     rkpm_exchange(run->rkpm, checkpoint);
@@ -91,6 +97,7 @@ const struct method method_rkpm = {
     .advance = advance,
     .look = look,
     .goes_on = goes_on,
+    .has_ended = has_ended,
     .exchange = exchange,
     .start_errors = start_table,
     .write_errors = write_table,

@@ -215,5 +215,6 @@ void rkpm_elastic_step(struct rkpm *rkpm, struct rkpm_level *level)
     rkpm->time = step->time;
     rkpm->load = step->load;
     rkpm->tip = tip_of(rkpm, level);
-    rkpm_elastic_show(rkpm, level);
+    if (!rkpm_goes_on(rkpm))
+        rkpm_elastic_show(rkpm, level);
 }
