@@ -27,6 +27,8 @@ struct method {
     /* Whether there is a further step; whether the last step ended the run for another reason than its time (NULL: never). */
     bool (*goes_on)(const struct run *run);
     bool (*has_ended)(const struct run *run);
+    /* Brings up to date what output reads of particles and steps don't need (NULL: all is). */
+    void (*show)(struct run *run);
     /* Takes particles that are gone out of run->is_shown, where their state does not tell (NULL: it does). */
     void (*hide_lost)(struct run *run);
     /* Where the n-th particle that left the grid, from 0 on, is in run->store; only of scenes that list them. */

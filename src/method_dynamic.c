@@ -50,6 +50,11 @@ static void look(struct run *run)
     value[TOTAL_FEW_NEIGHBOURS] = (double)sums->few_neighbours;
 }
 
+static void show(struct run *run)
+{
+    rkpm_dynamic_show(run->dynamic);
+}
+
 static bool goes_on(const struct run *run)
 {
     return run->dynamic->step == 0 || run->dynamic->time <= run->scene->end_time;
@@ -71,6 +76,7 @@ const struct method method_dynamic = {
     .close = close_solver,
     .advance = advance,
     .look = look,
+    .show = show,
     .goes_on = goes_on,
     .exchange = exchange,
     .print_scene = summary_dynamic_check,

@@ -105,6 +105,7 @@ THREADS_INLINE void update_point(const struct law_batch *batch, int j, const str
 THREADS_VECTORISED
 static void update_points(const struct law_batch *batch, const struct pass *pass)
 {
+#pragma omp simd
     for (int j = 0; j < batch->count; j++)
         update_point(batch, j, pass);
 }

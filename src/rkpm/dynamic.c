@@ -99,32 +99,36 @@ static void check(struct dynamic *dynamic)
 
 /* --- the step --- */
 
+/* Velocities to the middle of the step, without those along a wall of nodes that stick to it; what they add to places. */
+static void move_along(struct dynamic *dynamic, int axis)
+{
+    const struct scene_dynamic *words = &dynamic->words->dynamic;
+    const bool sticks = words->wall_sticks && axis != words->wall_axis;
+    const size_t lanes = (size_t)dynamic_lanes(dynamic->dimension);
+    const double dt = dynamic->time_step, *restrict acceleration = dynamic->acceleration[axis], *restrict force = dynamic->wall_force;
+    double *restrict x = dynamic->coefficient[axis], *restrict v = dynamic->velocity[axis], *restrict increment = dynamic->increment + axis;
+#pragma omp for schedule(static) nowait
+    for (size_t n = 0; n < dynamic->count; n++) {
+        v[n] = sticks && force[n] > 0 ? 0 : v[n] + 0.5 * dt * acceleration[n];
+        increment[n * lanes] = dt * v[n];
+        x[n] += dynamic->is_semi ? 0 : dt * v[n];
+    }
+}
+
 void rkpm_dynamic_move(struct dynamic *dynamic)
 {
-    const double dt = dynamic->time_step;
-    const int d = dynamic->dimension;
-    for (int a = 0; a < d; a++) {
-        double *restrict v = dynamic->velocity[a];
-        const double *restrict acceleration = dynamic->acceleration[a];
-        for (size_t n = 0; n < dynamic->count; n++)
-            v[n] += 0.5 * dt * acceleration[n];
-    }
-    rkpm_dynamic_hold(dynamic);
-    for (int a = 0; a < d; a++) {
-        double *restrict x = dynamic->coefficient[a];
-        const double *restrict v = dynamic->velocity[a];
-        for (size_t n = 0; n < dynamic->count; n++) {
-            dynamic->increment[n * (size_t)d + (size_t)a] = dt * v[n];
-            x[n] += dynamic->is_semi ? 0 : dt * v[n];
-        }
-    }
+#pragma omp parallel if (dynamic->count >= DYNAMIC_FEW_NODES)
+    for (int a = 0; a < dynamic->dimension; a++)
+        move_along(dynamic, a);
 }
 
 static void finish_velocities(struct dynamic *dynamic)
 {
+#pragma omp parallel if (dynamic->count >= DYNAMIC_FEW_NODES)
     for (int a = 0; a < dynamic->dimension; a++) {
         double *restrict v = dynamic->velocity[a];
         const double *restrict acceleration = dynamic->acceleration[a];
+#pragma omp for schedule(static) nowait
         for (size_t n = 0; n < dynamic->count; n++)
             v[n] += 0.5 * dynamic->time_step * acceleration[n];
     }
@@ -143,7 +147,10 @@ struct instability rkpm_dynamic_advance(struct dynamic *dynamic)
     rkpm_dynamic_forces(dynamic);
     timers_enter(dynamic->timers, PHASE_MOVE);
     finish_velocities(dynamic);
-    rkpm_dynamic_places(dynamic);
+    if (dynamic->follows_nodes)
+        rkpm_dynamic_show(dynamic);
+    else if (dynamic->follows_extent)
+        rkpm_dynamic_places(dynamic);
     dynamic->step++;
     dynamic->time += dynamic->time_step;
     dynamic->updates += (double)dynamic->count;
@@ -197,7 +204,7 @@ void rkpm_dynamic_exchange(struct dynamic *dynamic, struct checkpoint *checkpoin
     }
     checkpoint_item(checkpoint, "wall_force", dynamic->wall_force, sizeof(double), dynamic->count);
     checkpoint_item(checkpoint, "load", dynamic->load, sizeof(double),
-                    dynamic->count * (size_t)(dynamic->nodal.rows * dynamic->dimension * dynamic->dimension));
+                    dynamic->count * dynamic_load_terms(dynamic));
     if (terms > 0)
         checkpoint_item(checkpoint, "gradient_stress", dynamic->gradient_stress, sizeof(double), terms);
     checkpoint_item(checkpoint, "volumes", dynamic->volumes, sizeof(double), all);

@@ -22,14 +22,14 @@
 struct checkpoint;
 struct schedule;
 
-enum { DYNAMIC_FEW_NODES = 1000 }; /* below these one thread is faster */
+enum { DYNAMIC_FEW_NODES = 1000, DYNAMIC_MOST_LANES = 4 }; /* below these nodes one thread is faster */
 
 /* Sums and extremes after a step. */
 struct dynamic_sums {
     double kinetic, internal, wall_energy;
     double momentum[3], centre[3];
-    double low[3], high[3];      /* of nodes' places */
-    double angular, turn;
+    double low[3], high[3];      /* of nodes' places, where curves show them */
+    double angular, turn;        /* likewise */
     double least_ratio, most_ratio; /* J */
     double wall_force;
     long few_neighbours;         /* points with too few neighbours, those of a wall that carries nothing left out */
@@ -69,6 +69,7 @@ struct dynamic {
     size_t count;              /* of the body, as far as they are open */
     struct schedule *schedule; /* of nodes that open, or NULL: all are */
     size_t open_at_start;
+    bool follows_nodes, follows_extent, follows_turning; /* what curves show of each step: values of nodes, width and ends, turning */
     size_t nodes;              /* that have rows: those of the body, and of a wall near it */
     int32_t *slot;             /* per node with rows: its place in the store */
     struct dynamic_fixed fixed;
@@ -80,9 +81,8 @@ struct dynamic {
 
     double *coefficient[3];    /* places of coefficients; with the semi-Lagrangian kernel of nodes */
     double *velocity[3], *acceleration[3]; /* of them */
-    double *increment;         /* of their places in the step, node by node, `dimension` each */
-    double *motion;            /* places and velocities of coefficients, in the same way, 2 dimension each */
-    double *load;              /* by nodes, rows: weight times stress, dimension^2 each; its work is the internal energy */
+    double *increment;         /* of their places in the step, node by node, `lanes` each */
+    double *load;              /* by nodes, rows, axes of the gradient: weight times stress, `lanes` each; its work is the internal energy */
     double *gradient_stress;   /* nsni, in the order of the store, by axes: `gradient_terms` each */
     int gradient_terms;
     double stabilisation;
@@ -96,6 +96,23 @@ struct dynamic {
     struct dynamic_sums sums;
     struct instability instability;
 };
+
+/* Vectors that many nodes read are as long as registers are: of three dimensions the fourth number is 0. */
+static inline int dynamic_lanes(int dimension)
+{
+    return dimension == 2 ? 2 : DYNAMIC_MOST_LANES;
+}
+
+/* Numbers of a node's loads. */
+static inline size_t dynamic_load_terms(const struct dynamic *dynamic)
+{
+    return (size_t)(dynamic->nodal.rows * dynamic->dimension * dynamic_lanes(dynamic->dimension));
+}
+
+static inline double *dynamic_load(const struct dynamic *dynamic, size_t node, int row, const int dimension)
+{
+    return dynamic->load + (node * (size_t)dynamic->nodal.rows + (size_t)row) * (size_t)(dimension * dynamic_lanes(dimension));
+}
 
 struct dynamic *rkpm_dynamic_open(const struct scene *scene, struct timers *timers);
 void rkpm_dynamic_close(struct dynamic *dynamic);
@@ -128,15 +145,15 @@ void rkpm_dynamic_release(struct dynamic *dynamic);
 void rkpm_dynamic_strain(struct dynamic *dynamic);
 void rkpm_dynamic_forces(struct dynamic *dynamic);
 
-/* Places and velocities of nodes, from those of coefficients. */
+/* Places of nodes from those of coefficients; with their velocities, for output: a step needs neither. */
 void rkpm_dynamic_places(struct dynamic *dynamic);
+void rkpm_dynamic_show(struct dynamic *dynamic);
 
 /* Force over depth of a node in the wall's springs: pressure over depth times the face of a node. */
 double rkpm_dynamic_stiffness(const struct dynamic *dynamic);
 
-/* Force of the wall's springs per node, from places; velocities along the wall of nodes that stick to it are taken out. */
+/* Force of the wall's springs per node, from places. */
 void rkpm_dynamic_wall(struct dynamic *dynamic);
-void rkpm_dynamic_hold(struct dynamic *dynamic);
 
 void rkpm_dynamic_sum(struct dynamic *dynamic);
 

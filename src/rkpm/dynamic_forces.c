@@ -54,18 +54,19 @@ THREADS_INLINE void collect(const struct dynamic *dynamic, size_t coefficient, d
     const struct nodal *nodal = &dynamic->nodal;
     const struct dynamic_pairs *pairs = &dynamic->pairs;
     const size_t rows = (size_t)nodal->rows, axes = (size_t)d, stride = pairs->gradients ? 1 : (size_t)nodal->stride;
-    double sum[3] = {0};
+    const int lanes = dynamic_lanes(d);
+    double sum[DYNAMIC_MOST_LANES] = {0};
     for (int32_t p = pairs->first[coefficient]; p < pairs->first[coefficient + 1]; p++) {
         const size_t node = (size_t)pairs->node[p];
-        const double *restrict load = dynamic->load + node * rows * axes * axes;
+        const double *restrict load = dynamic_load(dynamic, node, 0, d);
         const double *restrict row = pairs->gradients ? pairs->gradients + (size_t)p * rows * axes
                                                       : nodal->gradients + node * rows * axes * stride + (size_t)pairs->place[p];
-        for (size_t r = 0; r < rows; r++, load += axes * axes, row += axes * stride)
-            for (int i = 0; i < d; i++)
-                for (int j = 0; j < d; j++)
-                    sum[i] -= load[i * d + j] * row[(size_t)j * stride];
+        for (size_t r = 0; r < rows; r++, load += d * lanes, row += axes * stride)
+            for (int j = 0; j < d; j++)
+                for (int i = 0; i < lanes; i++)
+                    sum[i] -= load[j * lanes + i] * row[(size_t)j * stride];
     }
-    memcpy(force, sum, sizeof sum);
+    memcpy(force, sum, 3 * sizeof *sum);
 }
 
 THREADS_VECTORISED
@@ -101,46 +102,41 @@ void rkpm_dynamic_forces(struct dynamic *dynamic)
 
 /* --- places --- */
 
-THREADS_INLINE void place_node(struct dynamic *dynamic, size_t node, const int d)
+/* Sum over a node's neighbours of a vector of theirs, by axes, times the shape functions at the node. */
+THREADS_INLINE void interpolate(const struct dynamic *dynamic, size_t node, double *const of[3], double *const to[3], const int d)
 {
     const struct nodal *nodal = &dynamic->nodal;
     const int32_t *neighbour = rkpm_nodal_neighbour(nodal, node);
     const double *restrict value = rkpm_nodal_value(nodal, node);
-    double x[3] = {0}, v[3] = {0};
-    for (int k = 0; k < nodal->neighbours[node]; k++) {
-        const double *restrict motion = dynamic->motion + (size_t)neighbour[k] * (size_t)(2 * d);
-        for (int a = 0; a < d; a++) {
-            x[a] += value[k] * motion[a];
-            v[a] += value[k] * motion[d + a];
-        }
-    }
-    for (int a = 0; a < d; a++) {
-        dynamic->store->real[COLUMN_POSITION][a][node] = dynamic->is_semi ? dynamic->coefficient[a][node] : x[a];
-        dynamic->store->real[COLUMN_VELOCITY][a][node] = v[a];
-    }
+    double sum[3] = {0};
+    for (int k = 0; k < nodal->neighbours[node]; k++)
+        for (int a = 0; a < d; a++)
+            sum[a] += value[k] * of[a][neighbour[k]];
+    for (int a = 0; a < d; a++)
+        to[a][node] = sum[a];
 }
 
-THREADS_VECTORISED
-static void place_node_2(struct dynamic *dynamic, size_t node)
+static void interpolate_all(const struct dynamic *dynamic, double *const of[3], double *const to[3])
 {
-    place_node(dynamic, node, 2);
-}
-
-THREADS_VECTORISED
-static void place_node_3(struct dynamic *dynamic, size_t node)
-{
-    place_node(dynamic, node, 3);
+#pragma omp parallel for schedule(static) if (dynamic->count >= DYNAMIC_FEW_NODES)
+    for (size_t n = 0; n < dynamic->count; n++)
+        if (dynamic->dimension == 2)
+            interpolate(dynamic, n, of, to, 2);
+        else
+            interpolate(dynamic, n, of, to, 3);
 }
 
 void rkpm_dynamic_places(struct dynamic *dynamic)
 {
-    const size_t d = (size_t)dynamic->dimension;
-    for (size_t a = 0; a < d; a++)
-        for (size_t n = 0; n < dynamic->nodes; n++) {
-            dynamic->motion[2 * n * d + a] = dynamic->coefficient[a][n];
-            dynamic->motion[(2 * n + 1) * d + a] = dynamic->velocity[a][n];
-        }
-#pragma omp parallel for schedule(static) if (dynamic->count >= DYNAMIC_FEW_NODES)
-    for (size_t n = 0; n < dynamic->count; n++)
-        (dynamic->dimension == 2 ? place_node_2 : place_node_3)(dynamic, n);
+    double *const *place = dynamic->store->real[COLUMN_POSITION];
+    if (!dynamic->is_semi)
+        interpolate_all(dynamic, dynamic->coefficient, place);
+    for (int a = 0; a < dynamic->dimension && dynamic->is_semi; a++)
+        memcpy(place[a], dynamic->coefficient[a], dynamic->count * sizeof(double));
+}
+
+void rkpm_dynamic_show(struct dynamic *dynamic)
+{
+    rkpm_dynamic_places(dynamic);
+    interpolate_all(dynamic, dynamic->velocity, dynamic->store->real[COLUMN_VELOCITY]);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From the scene to nodes with room for all that their motion needs. */
 #include "base/memory.h"
+#include "particles/results.h"
 #include "rkpm/dynamic.h"
 
 #include <math.h>
@@ -116,7 +117,7 @@ static int gradient_terms(const struct dynamic *dynamic)
 
 static void create_work(struct dynamic *dynamic)
 {
-    const size_t count = dynamic->store->count, axes = (size_t)dynamic->dimension, rows = (size_t)dynamic->nodal.rows;
+    const size_t count = dynamic->store->count, axes = (size_t)dynamic->dimension;
     double **const arrays[] = {&dynamic->trace, &dynamic->volume_before, &dynamic->terms[0], &dynamic->terms[1], &dynamic->wall_force};
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
         *arrays[i] = memory_array(count, sizeof(double), "nodes");
@@ -124,9 +125,8 @@ static void create_work(struct dynamic *dynamic)
         dynamic->strain[a] = memory_array(count, sizeof(double), "strains");
     for (int a = 0; a < 3; a++)
         dynamic->spin[a] = memory_array(count, sizeof(double), "strains");
-    dynamic->increment = memory_array(count * axes, sizeof(double), "nodes");
-    dynamic->motion = memory_array(2 * count * axes, sizeof(double), "nodes");
-    dynamic->load = memory_array(count * rows * axes * axes, sizeof(double), "forces");
+    dynamic->increment = memory_array(count * (size_t)dynamic_lanes(dynamic->dimension), sizeof(double), "nodes");
+    dynamic->load = memory_array(count * dynamic_load_terms(dynamic), sizeof(double), "forces");
     dynamic->gradient_terms = gradient_terms(dynamic);
     dynamic->gradient_stress = memory_array(count * axes * (size_t)dynamic->gradient_terms, sizeof(double), "gradients of stress");
 }
@@ -155,6 +155,17 @@ static void open_rows(struct dynamic *dynamic)
                     dynamic->is_semi ? dynamic->coefficient : dynamic->rest, dynamic->volumes, NULL, radius, !dynamic->is_semi);
 }
 
+/* What curves show has to be known in each step. */
+static void choose_followed(struct dynamic *dynamic)
+{
+    for (size_t i = 0; i < dynamic->scene->n_curves; i++) {
+        const enum total total = dynamic->scene->curves[i].result->total;
+        dynamic->follows_nodes |= total == TOTAL_NONE;
+        dynamic->follows_extent |= total == TOTAL_WIDTH || total == TOTAL_TOP || total == TOTAL_BOTTOM;
+        dynamic->follows_turning |= total == TOTAL_ANGULAR || total == TOTAL_TURN;
+    }
+}
+
 struct dynamic *rkpm_dynamic_open(const struct scene *scene, struct timers *timers)
 {
     struct dynamic *dynamic = memory_array(1, sizeof *dynamic, "the run");
@@ -166,6 +177,7 @@ struct dynamic *rkpm_dynamic_open(const struct scene *scene, struct timers *time
     dynamic->is_semi = scene->rkpm.dynamic.mode == KERNEL_SEMI;
     const double given = scene->rkpm.dynamic.stabilisation;
     dynamic->stabilisation = given >= 0 ? given : dynamic->material->law->stabilisation;
+    choose_followed(dynamic);
     create_nodes(dynamic);
     create_store(dynamic);
     rkpm_dynamic_layers_open(dynamic);
@@ -173,7 +185,7 @@ struct dynamic *rkpm_dynamic_open(const struct scene *scene, struct timers *time
     create_work(dynamic);
     start_motion(dynamic);
     rkpm_dynamic_renew(dynamic);
-    rkpm_dynamic_places(dynamic);
+    rkpm_dynamic_show(dynamic);
     rkpm_dynamic_forces(dynamic);
     rkpm_dynamic_sum(dynamic);
     rkpm_dynamic_start(dynamic);
@@ -195,8 +207,8 @@ void rkpm_dynamic_close(struct dynamic *dynamic)
     for (int a = 0; a < 6; a++)
         memory_free(dynamic->strain[a]);
     double *const arrays[] = {dynamic->volumes,         dynamic->trace, dynamic->volume_before,
-                              dynamic->terms[0],        dynamic->terms[1], dynamic->wall_force, dynamic->increment, dynamic->motion,
-                              dynamic->load,            dynamic->gradient_stress};
+                              dynamic->terms[0],        dynamic->terms[1], dynamic->wall_force, dynamic->increment, dynamic->load,
+                              dynamic->gradient_stress};
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
         memory_free(arrays[i]);
     rkpm_dynamic_layers_close(dynamic);

@@ -13,7 +13,7 @@
 static void move_nodes(struct dynamic *dynamic)
 {
     const struct nodal *nodal = &dynamic->nodal;
-    const size_t d = (size_t)dynamic->dimension;
+    const size_t d = (size_t)dynamic->dimension, lanes = (size_t)dynamic_lanes(dynamic->dimension);
 #pragma omp parallel for schedule(static) if (dynamic->nodes >= DYNAMIC_FEW_NODES)
     for (size_t n = 0; n < dynamic->count; n++) {
         const int32_t *neighbour = rkpm_nodal_neighbour(nodal, n);
@@ -21,7 +21,7 @@ static void move_nodes(struct dynamic *dynamic)
         double way[3] = {0};
         for (int k = 0; k < nodal->neighbours[n]; k++)
             for (size_t a = 0; a < d; a++)
-                way[a] += value[k] * dynamic->increment[(size_t)neighbour[k] * d + a];
+                way[a] += value[k] * dynamic->increment[(size_t)neighbour[k] * lanes + a];
         for (size_t a = 0; a < d; a++)
             dynamic->coefficient[a][n] += way[a];
     }
@@ -116,7 +116,7 @@ static void choose_fixed(struct dynamic *dynamic)
         dynamic->slot[node] = (int32_t)slot;
         for (int a = 0; a < dynamic->dimension; a++) {
             dynamic->coefficient[a][node] = dynamic->rest[a][slot];
-            dynamic->increment[node * (size_t)dynamic->dimension + (size_t)a] = 0;
+            dynamic->increment[node * (size_t)dynamic_lanes(dynamic->dimension) + (size_t)a] = 0;
         }
     }
 }

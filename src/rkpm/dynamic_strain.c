@@ -17,18 +17,33 @@ static const int place[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}};
 THREADS_INLINE void gather(const struct dynamic *dynamic, size_t node, int row, double gradient[3][3], const int d)
 {
     const struct nodal *nodal = &dynamic->nodal;
+    const int lanes = dynamic_lanes(d), count = nodal->neighbours[node];
     const int32_t *neighbour = rkpm_nodal_neighbour(nodal, node);
-    const double *restrict along[3];
-    double sum[3][3] = {{0}};
+    const double *restrict along[3], *restrict increments = dynamic->increment;
+    double sum[3][DYNAMIC_MOST_LANES] = {{0}}; /* by axes of the gradient */
     for (int j = 0; j < d; j++)
         along[j] = rkpm_nodal_gradient(nodal, node, row, j);
-    for (int k = 0; k < nodal->neighbours[node]; k++) {
-        const double *restrict increment = dynamic->increment + (size_t)neighbour[k] * (size_t)d;
-        for (int i = 0; i < d; i++)
-            for (int j = 0; j < d; j++)
-                sum[i][j] += increment[i] * along[j][k];
+    for (int k = 0; k < count; k++) {
+        const double *restrict increment = increments + (size_t)neighbour[k] * (size_t)lanes;
+        for (int j = 0; j < d; j++)
+            for (int i = 0; i < lanes; i++)
+                sum[j][i] += increment[i] * along[j][k];
     }
-    memcpy(gradient, sum, sizeof sum);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            gradient[i][j] = i < d && j < d ? sum[j][i] : 0;
+}
+
+/* Of a gradient that is 1 along axes beyond the dimension. */
+THREADS_INLINE void invert(double m[3][3], double inverse[3][3], const int d)
+{
+    if (d == 3) {
+        tensor_inverse(m, tensor_determinant(m), inverse);
+        return;
+    }
+    const double over = 1 / (m[0][0] * m[1][1] - m[0][1] * m[1][0]);
+    const double plane[3][3] = {{over * m[1][1], -over * m[0][1], 0}, {-over * m[1][0], over * m[0][0], 0}, {0, 0, 1}};
+    memcpy(inverse, plane, sizeof plane);
 }
 
 THREADS_INLINE void get_deformation(const struct store *store, size_t slot, double f[3][3])
@@ -59,21 +74,21 @@ THREADS_INLINE void put_strain(struct dynamic *dynamic, size_t slot, double g[3]
 /* Half the work of the loads of a row on the gradient of the motion: they are those of before the step, or of after it. */
 THREADS_INLINE double half_work(const struct dynamic *dynamic, size_t node, int row, double step[3][3], const int d)
 {
-    const double *load = dynamic->load + (node * (size_t)dynamic->nodal.rows + (size_t)row) * (size_t)(d * d);
+    const double *load = dynamic_load(dynamic, node, row, d);
     double sum = 0;
     for (int i = 0; i < d; i++)
         for (int j = 0; j < d; j++)
-            sum += load[i * d + j] * step[i][j];
+            sum += load[j * dynamic_lanes(d) + i] * step[i][j];
     return 0.5 * sum;
 }
 
 /* The gradient at the start of the motion, D: F := F + D, f - 1 = D F^-1. */
-THREADS_INLINE void strain_rest(struct dynamic *dynamic, size_t slot, double step[3][3])
+THREADS_INLINE void strain_rest(struct dynamic *dynamic, size_t slot, double step[3][3], const int d)
 {
     struct store *store = dynamic->store;
     double f[3][3], inverse[3][3], g[3][3];
     get_deformation(store, slot, f);
-    tensor_inverse(f, tensor_determinant(f), inverse);
+    invert(f, inverse, d);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             g[i][j] = step[i][0] * inverse[0][j] + step[i][1] * inverse[1][j] + step[i][2] * inverse[2][j];
@@ -83,13 +98,13 @@ THREADS_INLINE void strain_rest(struct dynamic *dynamic, size_t slot, double ste
 }
 
 /* The gradient at the end of the motion, G: f = (1 - G)^-1, f - 1 = f G, F := f F. */
-THREADS_INLINE void strain_now(struct dynamic *dynamic, size_t slot, double step[3][3])
+THREADS_INLINE void strain_now(struct dynamic *dynamic, size_t slot, double step[3][3], const int d)
 {
     struct store *store = dynamic->store;
     double f[3][3], rest[3][3], inverse[3][3], g[3][3];
     for (int a = 0; a < 9; a++)
         rest[a / 3][a % 3] = (a % 4 == 0) - step[a / 3][a % 3];
-    tensor_inverse(rest, tensor_determinant(rest), inverse);
+    invert(rest, inverse, d);
     get_deformation(store, slot, f);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
@@ -105,9 +120,9 @@ THREADS_INLINE void strain_node(struct dynamic *dynamic, size_t node, size_t slo
     gather(dynamic, node, 0, step, d);
     dynamic->store->real[COLUMN_ENERGY][0][slot] += half_work(dynamic, node, 0, step, d);
     if (dynamic->is_semi)
-        strain_now(dynamic, slot, step);
+        strain_now(dynamic, slot, step, d);
     else
-        strain_rest(dynamic, slot, step);
+        strain_rest(dynamic, slot, step, d);
 }
 
 /* V_0 P = V_0 J sigma F^-T of gradients at the start; V sigma of those at the end of the step. */
@@ -115,17 +130,18 @@ THREADS_INLINE void load_node(struct dynamic *dynamic, size_t node, size_t slot,
 {
     struct store *store = dynamic->store;
     const double volume = store->real[COLUMN_VOLUME][0][slot];
-    double f[3][3], inverse[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, *load = dynamic->load + node * (size_t)(dynamic->nodal.rows * d * d);
+    double f[3][3], inverse[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    double *load = dynamic_load(dynamic, node, 0, d);
     if (!dynamic->is_semi) {
         get_deformation(store, slot, f);
-        tensor_inverse(f, tensor_determinant(f), inverse);
+        invert(f, inverse, d);
     }
     for (int i = 0; i < d; i++)
         for (int j = 0; j < d; j++) {
             double sum = 0;
             for (int k = 0; k < d; k++)
                 sum += store->real[COLUMN_STRESS][place[i][k]][slot] * inverse[j][k];
-            load[i * d + j] = volume * sum;
+            load[j * dynamic_lanes(d) + i] = volume * sum;
         }
     store->real[COLUMN_ENERGY][0][slot] += half_work(dynamic, node, 0, step, d);
 }
@@ -165,7 +181,7 @@ THREADS_INLINE void stabilise(struct dynamic *dynamic, size_t node, size_t slot,
 {
     double step[3][3], deviator[6] = {0}, sum[6];
     double *s = dynamic->gradient_stress + (slot * (size_t)d + (size_t)axis) * (size_t)dynamic->gradient_terms;
-    double *load = dynamic->load + (node * (size_t)dynamic->nodal.rows + 1 + (size_t)axis) * (size_t)(d * d);
+    double *load = dynamic_load(dynamic, node, 1 + axis, d);
     gather(dynamic, node, 1 + axis, step, d);
     dynamic->store->real[COLUMN_ENERGY][0][slot] += half_work(dynamic, node, 1 + axis, step, d);
     const double trace = step[0][0] + step[1][1] + step[2][2];
@@ -185,7 +201,7 @@ THREADS_INLINE void stabilise(struct dynamic *dynamic, size_t node, size_t slot,
     const double weight = volume * square_of_side(dynamic->is_semi ? volume : dynamic->volume, d) / 12;
     for (int i = 0; i < d; i++)
         for (int j = 0; j < d; j++)
-            load[i * d + j] = weight * (sum[place[i][j]] + (i == j ? s[0] : 0));
+            load[j * dynamic_lanes(d) + i] = weight * (sum[place[i][j]] + (i == j ? s[0] : 0));
     dynamic->store->real[COLUMN_ENERGY][0][slot] += half_work(dynamic, node, 1 + axis, step, d);
 }
 
@@ -250,10 +266,10 @@ static void strain_chunk_3(struct dynamic *dynamic, size_t from, size_t to, cons
 /* A node of the wall; without the body near it carries nothing. */
 static void strain_fixed(struct dynamic *dynamic, size_t node, const struct gradient_law *law)
 {
-    const size_t terms = (size_t)(dynamic->nodal.rows * dynamic->dimension * dynamic->dimension);
-    memset(dynamic->load + node * terms, 0, terms * sizeof(double));
+    const int d = dynamic->dimension;
+    memset(dynamic_load(dynamic, node, 0, d), 0, dynamic_load_terms(dynamic) * sizeof(double));
     if (dynamic->fixed.is_active[dynamic->slot[node]])
-        (dynamic->dimension == 2 ? strain_chunk_2 : strain_chunk_3)(dynamic, node, node + 1, law);
+        (d == 2 ? strain_chunk_2 : strain_chunk_3)(dynamic, node, node + 1, law);
 }
 
 void rkpm_dynamic_strain(struct dynamic *dynamic)

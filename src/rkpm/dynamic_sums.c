@@ -46,18 +46,14 @@ static void sum_nodes(const struct dynamic *dynamic, struct dynamic_sums *sums)
     long worst = -1, not_finite = -1;
     for (size_t n = 0; n < dynamic->count; n++) {
         internal += energy[n];
-        most = fmax(most, volume[n]);
+        most = volume[n] > most ? volume[n] : most;
         if (volume[n] < least) {
             least = volume[n];
             worst = (long)n;
         }
         double sum = volume[n] + energy[n];
-        for (int a = 0; a < dynamic->dimension; a++) {
-            const double x = store->real[COLUMN_POSITION][a][n];
-            sum += x + dynamic->velocity[a][n] + dynamic->acceleration[a][n];
-            sums->low[a] = n == 0 ? x : fmin(sums->low[a], x);
-            sums->high[a] = n == 0 ? x : fmax(sums->high[a], x);
-        }
+        for (int a = 0; a < dynamic->dimension; a++)
+            sum += dynamic->coefficient[a][n] + dynamic->velocity[a][n] + dynamic->acceleration[a][n];
         if (!isfinite(sum) && not_finite < 0)
             not_finite = (long)n;
     }
@@ -67,6 +63,20 @@ static void sum_nodes(const struct dynamic *dynamic, struct dynamic_sums *sums)
     sums->is_finite = not_finite < 0;
     sums->least_node = worst;
     sums->bad_node = not_finite < 0 ? worst : not_finite;
+}
+
+static void find_ends(const struct dynamic *dynamic, struct dynamic_sums *sums)
+{
+    for (int a = 0; a < dynamic->dimension; a++) {
+        const double *x = dynamic->store->real[COLUMN_POSITION][a];
+        double low = x[0], high = x[0];
+        for (size_t n = 1; n < dynamic->count; n++) {
+            low = x[n] < low ? x[n] : low;
+            high = x[n] > high ? x[n] : high;
+        }
+        sums->low[a] = low;
+        sums->high[a] = high;
+    }
 }
 
 static void sum_wall(const struct dynamic *dynamic, struct dynamic_sums *sums)
@@ -93,7 +103,10 @@ void rkpm_dynamic_sum(struct dynamic *dynamic)
 {
     struct dynamic_sums *sums = &dynamic->sums;
     sum_motion(dynamic, sums);
-    sum_turning(dynamic, sums);
+    if (dynamic->follows_turning)
+        sum_turning(dynamic, sums);
+    if (dynamic->follows_extent)
+        find_ends(dynamic, sums);
     sum_nodes(dynamic, sums);
     sum_wall(dynamic, sums);
     sums->few_neighbours = count_few(dynamic);
@@ -138,8 +151,10 @@ static double least_stretch_3(double f[3][3])
 static double least_stretch(const struct dynamic *dynamic)
 {
     const struct store *store = dynamic->store;
-    double least = DBL_MAX, f[3][3];
+    double least = DBL_MAX;
+#pragma omp parallel for schedule(static) reduction(min : least) if (dynamic->count >= DYNAMIC_FEW_NODES)
     for (size_t n = 0; n < dynamic->count; n++) {
+        double f[3][3];
         for (int a = 0; a < 9; a++)
             f[a / 3][a % 3] = store->real[COLUMN_DEFORMATION][a][n] + (a % 4 == 0);
         least = fmin(least, dynamic->dimension == 2 ? least_stretch_2(f[0][0], f[0][1], f[1][0], f[1][1]) : least_stretch_3(f));

@@ -24,12 +24,3 @@ void rkpm_dynamic_wall(struct dynamic *dynamic)
     for (size_t n = 0; n < dynamic->count && dynamic->words->dynamic.wall == RKPM_WALL_SPRING; n++)
         dynamic->wall_force[n] = k * fmax(depth(dynamic, n), 0);
 }
-
-void rkpm_dynamic_hold(struct dynamic *dynamic)
-{
-    const struct scene_dynamic *words = &dynamic->words->dynamic;
-    for (size_t n = 0; n < dynamic->count && words->wall_sticks; n++)
-        for (int a = 0; a < dynamic->dimension && dynamic->wall_force[n] > 0; a++)
-            if (a != words->wall_axis)
-                dynamic->velocity[a][n] = 0;
-}

@@ -61,11 +61,11 @@ struct motion {
     struct dynamic *dynamic;
 };
 
-/* A deck whose block has these words. */
+/* A deck whose block has these words; sums of width and turning are taken where curves show them. */
 static void open_motion(struct motion *motion, const char *law, double step, const char *words)
 {
     struct deck_builder deck = {0};
-    deck_add(&deck, "mpm3d test\nmeth rkpm nmat 1 endt 1 dtfx %g\nmate\n1 %s\nrkpm\nprob dynamic\n%s\nends\nendi\n", step, law, words);
+    deck_add(&deck, "mpm3d test\nmeth rkpm nmat 1 endt 1 dtfx %g\nmate\n1 %s\nrkpm\nprob dynamic\n%s\nends\ncurv widt\ncurv angm\nendi\n", step, law, words);
     memset(motion, 0, sizeof *motion);
     motion->run.diagnostics = diagnostics_open();
     motion->run.text = text_open(motion->run.diagnostics);
