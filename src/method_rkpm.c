@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Problems on reproducing kernel particles as a run sees them: each level is a step and counts 1 in time. */
+/* Problems on reproducing kernel particles as a run sees them: each level is a step. */
 #include "run.h"
 #include "rkpm/rkpm.h"
 #include "summary.h"
@@ -24,10 +24,9 @@ static struct instability advance(struct run *run)
 
 static void look(struct run *run)
 {
-    const long step = run->rkpm->step;
-    const double time = run->scene->rkpm.problem == PROBLEM_CREEP ? run->rkpm->time : (double)step;
-    run->course = (struct run_course){step, time, 1, 0};
-    run->totals.time = time;
+    const struct rkpm *rkpm = run->rkpm;
+    run->course = (struct run_course){rkpm->step, rkpm->time, 1, 0};
+    run->totals.time = rkpm->time;
 }
 
 static bool goes_on(const struct run *run)
@@ -46,40 +45,57 @@ static void exchange(struct run *run, struct checkpoint *checkpoint)
     rkpm_exchange(run->rkpm, checkpoint);
 }
 
-static void start_table(struct run *run)
-{
-    const bool is_elastic = run->scene->rkpm.problem == PROBLEM_ELASTIC;
-    if (run->scene->rkpm.problem == PROBLEM_CREEP) {
-        fprintf(run->errors.stream, "VARIABLES = \"t\" \"load\" \"tip\"\n");
-        return;
-    }
-    fprintf(run->errors.stream, "VARIABLES = \"n\" \"nx\" \"h\" \"L2\" \"H1\" \"rateL2\" \"rateH1\" \"relL2\"%s\n",
-            is_elastic ? " \"L2x\" \"L2y\" \"L2z\" \"energy\" \"tip\"" : "");
-}
+/* --- the table of errors --- */
 
-/* The line of the last step in time. */
-static bool write_step(struct run *run)
+/* The last step in time. */
+static void write_step(struct run *run)
 {
     const double values[] = {run->rkpm->time, run->rkpm->load, run->rkpm->tip};
     for (size_t i = 0; i < sizeof values / sizeof values[0]; i++)
         table_real(&run->errors, values[i]);
-    table_end_line(&run->errors);
-    return table_flush(&run->errors);
 }
 
-/* The line of the last level. */
-static bool write_table(struct run *run)
+/* The last level; what only displacements have. */
+static void write_level(struct run *run)
 {
-    if (run->scene->rkpm.problem == PROBLEM_CREEP)
-        return write_step(run);
     const struct rkpm_level *level = &run->rkpm->levels[run->rkpm->step - 1];
     const struct rkpm_result *result = &level->result;
-    const double values[] = {level->box.spacing[0], result->l2, result->h1, result->l2_rate, result->h1_rate,
-                             result->l2_relative, result->l2_along[0], result->l2_along[1], result->l2_along[2], result->energy, result->tip};
-    const size_t count = run->scene->rkpm.problem == PROBLEM_ELASTIC ? sizeof values / sizeof values[0] : 6;
+    const double values[] = {level->box.spacing[0], result->l2, result->h1, result->l2_rate, result->h1_rate, result->l2_relative};
     fprintf(run->errors.stream, " %9zu %6ld", level->count, level->box.numbers[0]);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < sizeof values / sizeof values[0]; i++)
         table_real(&run->errors, values[i]);
+}
+
+static void write_elastic(struct run *run)
+{
+    const struct rkpm_result *result = &run->rkpm->levels[run->rkpm->step - 1].result;
+    const double values[] = {result->l2_along[0], result->l2_along[1], result->l2_along[2], result->energy, result->tip};
+    write_level(run);
+    for (size_t i = 0; i < sizeof values / sizeof values[0]; i++)
+        table_real(&run->errors, values[i]);
+}
+
+#define OF_LEVELS "\"n\" \"nx\" \"h\" \"L2\" \"H1\" \"rateL2\" \"rateH1\" \"relL2\""
+
+static const struct error_table {
+    const char *names;
+    void (*write)(struct run *run);
+} tables[] = {
+    [PROBLEM_APPROXIMATION] = {OF_LEVELS, write_level},
+    [PROBLEM_HELMHOLTZ] = {OF_LEVELS, write_level},
+    [PROBLEM_POISSON] = {OF_LEVELS, write_level},
+    [PROBLEM_ELASTIC] = {OF_LEVELS " \"L2x\" \"L2y\" \"L2z\" \"energy\" \"tip\"", write_elastic},
+    [PROBLEM_CREEP] = {"\"t\" \"load\" \"tip\"", write_step},
+};
+
+static void start_table(struct run *run)
+{
+    fprintf(run->errors.stream, "VARIABLES = %s\n", tables[run->scene->rkpm.problem].names);
+}
+
+static bool write_table(struct run *run)
+{
+    tables[run->scene->rkpm.problem].write(run);
     table_end_line(&run->errors);
     return table_flush(&run->errors);
 }

@@ -145,11 +145,17 @@ static void mark_shown(struct run *run)
         run->method->hide_lost(run);
 }
 
+/* What output reads of particles, as far as steps don't keep it. */
+static void bring_up_to_date(struct run *run)
+{
+    if (run->method->show)
+        run->method->show(run);
+}
+
 static enum status write_dump(struct run *run)
 {
     bool good = true;
-    if (run->method->show)
-        run->method->show(run);
+    bring_up_to_date(run);
     if (run->scene->writes_animation) {
         mark_shown(run);
         good = animation_zone(&run->animation, run->scene, &run->source, run->is_shown, run->course.time);
@@ -313,8 +319,7 @@ enum status run_step(struct run *run)
     if (instability.is_stopped) {
         if (run->scene->writes_lost)
             write_lost(run);
-        if (run->method->show)
-            run->method->show(run);
+        bring_up_to_date(run);
         progress_close(&run->progress);
         run->method->print_instability(run, &instability, stderr);
         run->method->print_instability(run, &instability, run->log);
@@ -353,8 +358,7 @@ static enum status print_error(struct run *run, double seconds)
 {
     FILE *const streams[] = {run->log, stdout};
     enum status status = STATUS_FINISHED;
-    if (run->method->show)
-        run->method->show(run);
+    bring_up_to_date(run);
     mark_shown(run);
     for (int i = 0; i < 2 && status == STATUS_FINISHED; i++) {
         status = reference_print(&run->reference, run->scene, &run->source, run->is_shown, run->course.time, streams[i]);

@@ -11,7 +11,7 @@ animation_ history_ progress_ run_ summary_ account_ staggered_ building_ schedu
 heat_ laser_ property_ properties_ flow_ surface_ limits_ budget_ sph_ neighbours_ method_
 overlap_ light_nodes_ reference_ checkpoint_ checksum_ restart_ vector_ conjugate_ envelope_ symmetric_ stiffness_ multigrid_ rigid_ equilibrium_
 words_ tecplot_ swing_ draw_ tecview_ remove_ bed_
-rkpm_ box_ basis_ search_ methods_ field_ quadrature_ cells_ points_ held_ body_ solver_ iteration_ creep_ relaxation_ coarse_ lattice_ deformation_ sparse_ banded_ sound_ maxwell_ finite_
+number_ rkpm_ box_ basis_ search_ methods_ field_ quadrature_ cells_ points_ held_ body_ solver_ iteration_ creep_ relaxation_ coarse_ lattice_ deformation_ sparse_ banded_ sound_ maxwell_ finite_
 END
 )
 bad=$(find . -name '*.o' ! -path './tests/*' | while read -r object; do

@@ -2,6 +2,7 @@
 /* Discrete information: the part blocks. */
 #include "base/memory.h"
 #include "deck/commands_process.h"
+#include "deck/number.h"
 #include "particles/solid.h"
 
 #include <math.h>
@@ -55,7 +56,7 @@ static struct run_of_numbers numbers_ahead(struct reader *reader, long a_line)
     struct deck_word word = reader->last;
     double real;
     bool has_next;
-    while ((has_next = text_after(reader->text, &word)) && reader_is_real(&word, &real)) {
+    while ((has_next = text_after(reader->text, &word)) && number_is_real(&word, &real)) {
         if (word.place.line != line.last.place.line) {
             end_line(&run, &line, a_line);
             line.count = 0;
@@ -212,7 +213,7 @@ static bool read_solid(struct reader *reader, struct generator *generator, const
     bool is_read = !lacks_component(reader, generator, values) && read_lattice(reader, generator);
     if (is_read)
         generator->solid = solid_open(generator->number, generator->spacing);
-    while (!is_read && text_peek(reader->text, &word) && reader_is_real(&word, &real))
+    while (!is_read && text_peek(reader->text, &word) && number_is_real(&word, &real))
         reader_word(reader, &word, "a step");
     is_read = reader_solid_block(reader, generator->solid) && is_read;
     const char *fault = is_read ? solid_fault(generator->solid) : NULL;

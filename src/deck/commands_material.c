@@ -2,6 +2,7 @@
 /* Material model: the mate block, and later the equations of state. */
 #include "base/memory.h"
 #include "deck/commands_sph.h"
+#include "deck/number.h"
 #include "material/eos.h"
 
 #include <math.h>
@@ -34,8 +35,8 @@ static bool next_is_material(struct reader *reader)
     struct deck_word id, law;
     long integer;
     double real;
-    return text_peek(reader->text, &id) && reader_is_integer(&id, &integer) && text_second(reader->text, &law)
-        && !reader_is_real(&law, &real);
+    return text_peek(reader->text, &id) && number_is_integer(&id, &integer) && text_second(reader->text, &law)
+        && !number_is_real(&law, &real);
 }
 
 /* Takes the rest of a material that can't be read. */
@@ -44,7 +45,7 @@ static void skip_to_next_material(struct reader *reader)
     struct deck_word word;
     double real;
     while (text_peek(reader->text, &word) && !next_is_material(reader) && !reader_is_keyword(&word)
-           && (!reader_at_line_end(reader) || reader_is_real(&word, &real)))
+           && (!reader_at_line_end(reader) || number_is_real(&word, &real)))
         text_next(reader->text, &reader->last);
 }
 
@@ -150,7 +151,7 @@ static bool take_id(struct reader *reader, bool has_ended, struct value *id)
         return false;
     }
     text_next(reader->text, &reader->last);
-    if (!reader_is_integer(&id->word, &id->integer))
+    if (!number_is_integer(&id->word, &id->integer))
         diagnostics_error(reader->diagnostics, id->word.place, "expected a material id (a whole number), found '%s'",
                           text_show(&id->word, text, sizeof text));
     else if (has_ended && id->integer >= 1 && id->integer <= declared)
@@ -172,7 +173,7 @@ static long read_material(struct reader *reader, bool has_ended)
     bool good = take_id(reader, has_ended, &id);
     if (good)
         entry = material_at(reader->scene, (size_t)id.integer - 1);
-    if (good || (text_peek(reader->text, &next) && !reader_is_real(&next, &real)))
+    if (good || (text_peek(reader->text, &next) && !number_is_real(&next, &real)))
         entry->is_given = read_law(reader, entry);
     memory_free(nowhere.material.elements);
     if (good && entry->is_given)

@@ -1,88 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "deck/reader.h"
 #include "base/memory.h"
+#include "deck/number.h"
 
-#include <ctype.h>
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 enum { SHOWN = 40 };
-
-/* --- numbers --- */
-
-/* Copies a numeric word to `plain` in C's own spelling. The word may have a sign, digits, one
- * point, and an exponent after e, d or a bare sign. Returns false when it is anything else. */
-static bool plain_number(const struct deck_word *word, char *plain, size_t size, bool *is_integer)
-{
-    const char *p = word->text, *end = p + word->length;
-    char *out = plain;
-    size_t digits = 0;
-    if (word->length + 3 > size)
-        return false;
-    *is_integer = true;
-    if (p < end && (*p == '+' || *p == '-'))
-        *out++ = *p++;
-    for (; p < end && (isdigit((unsigned char)*p) || (*p == '.' && *is_integer)); p++) {
-        digits += *p != '.';
-        *is_integer = *is_integer && *p != '.';
-        *out++ = *p;
-    }
-    if (digits == 0)
-        return false;
-    if (p < end) {
-        *is_integer = false;
-        *out++ = 'e';
-        bool has_letter = strchr("eEdD", *p) != NULL;
-        p += has_letter;
-        bool has_sign = p < end && (*p == '+' || *p == '-');
-        if (!has_letter && !has_sign)
-            return false;
-        if (has_sign)
-            *out++ = *p++;
-        if (p == end)
-            return false;
-        for (; p < end; p++) {
-            if (!isdigit((unsigned char)*p))
-                return false;
-            *out++ = *p;
-        }
-    }
-    *out = '\0';
-    return true;
-}
-
-/* A number may be written with any number of digits; a copy on the heap serves the long ones. */
-static bool parse_number(const struct deck_word *word, double *real, bool *is_integer)
-{
-    char small[128];
-    size_t size = word->length + 3;
-    char *plain = size <= sizeof small ? small : malloc(size);
-    bool good = plain && plain_number(word, plain, size, is_integer);
-    if (good)
-        *real = strtod(plain, NULL);
-    if (plain != small)
-        free(plain);
-    return good;
-}
-
-bool reader_is_real(const struct deck_word *word, double *real)
-{
-    bool is_integer;
-    return parse_number(word, real, &is_integer);
-}
-
-bool reader_is_integer(const struct deck_word *word, long *integer)
-{
-    double real;
-    bool is_integer;
-    if (!parse_number(word, &real, &is_integer) || !is_integer || fabs(real) > 9e15)
-        return false;
-    *integer = (long)real;
-    return true;
-}
 
 /* --- words --- */
 
@@ -112,7 +38,7 @@ void reader_skip_numbers(struct reader *reader)
 {
     struct deck_word word;
     double real;
-    for (reader_skip_line(reader); text_peek(reader->text, &word) && reader_is_real(&word, &real);
+    for (reader_skip_line(reader); text_peek(reader->text, &word) && number_is_real(&word, &real);
          reader_skip_line(reader))
         take(reader, &word);
 }
@@ -210,13 +136,13 @@ static bool read_value(struct reader *reader, const struct argument *argument, c
     char shown[SHOWN];
     if (argument->kind == ARGUMENT_WORD)
         return true;
-    bool is_number = parse_number(&value->word, &value->real, &is_integer);
+    bool is_number = number_read(&value->word, &value->real, &is_integer);
     if (!is_number || (argument->kind == ARGUMENT_INTEGER && !is_integer)) {
         diagnostics_error(reader->diagnostics, value->word.place, "expected %s for %s of %s, found '%s'",
                           kind_text(argument), argument->name, owner, text_show(&value->word, shown, sizeof shown));
         return false;
     }
-    if (argument->kind == ARGUMENT_INTEGER && !reader_is_integer(&value->word, &value->integer)) {
+    if (argument->kind == ARGUMENT_INTEGER && !number_is_integer(&value->word, &value->integer)) {
         diagnostics_error(reader->diagnostics, value->word.place, "%s of %s is too large: %s", argument->name, owner,
                           text_show(&value->word, shown, sizeof shown));
         return false;
@@ -244,7 +170,7 @@ static bool is_missing(struct reader *reader, const struct argument *argument)
     bool at_line_end = reader_at_line_end(reader);
     if (argument->kind == ARGUMENT_WORD)
         return at_line_end && (is_command(&next) || (reader->block.is_open && is_step(&next)));
-    if (reader_is_real(&next, &real))
+    if (number_is_real(&next, &real))
         return reader->in_materials && is_material_id(reader);
     return reader_is_keyword(&next) || (at_line_end && !strchr("0123456789+-.", *next.text));
 }
@@ -478,7 +404,7 @@ static bool seems_end(struct reader *reader, const struct keyword *table, const 
     int distance = keyword_distance(text, end);
     if (distance >= 0 && (!nearest || distance < keyword_distance(text, nearest)))
         return true;
-    return reader_at_line_end(reader) && text_peek(reader->text, &next) && !reader_is_real(&next, &real)
+    return reader_at_line_end(reader) && text_peek(reader->text, &next) && !number_is_real(&next, &real)
         && !keyword_in(table, text_copy(&next, name, sizeof name)) && strncasecmp(name, end, 4) != 0;
 }
 
@@ -490,7 +416,7 @@ static bool unknown_in_block(struct reader *reader, const struct deck_word *word
     double real;
     text_copy(word, text, sizeof text);
     snprintf(what, sizeof what, "a word of '%s' or '%s'", owner, end);
-    if (reader_is_real(word, &real)) {
+    if (number_is_real(word, &real)) {
         unexpected_number(reader, word, what, NULL);
         return false;
     }
@@ -577,7 +503,7 @@ static void guess_command(struct reader *reader, const struct deck_word *word, c
 static void unknown_command(struct reader *reader, const struct deck_word *word, const char *text)
 {
     double real;
-    if (reader_is_real(word, &real)) {
+    if (number_is_real(word, &real)) {
         unexpected_number(reader, word, "a keyword", reader->command);
         return;
     }

@@ -102,12 +102,6 @@ bool reader_is_keyword(const struct deck_word *word);
 /* Runs a command of the deck whose word was taken. */
 void reader_command(struct reader *reader, const struct keyword *row, const struct deck_word *word);
 
-/* Whether a word reads as a whole number; its value goes to *integer. */
-bool reader_is_integer(const struct deck_word *word, long *integer);
-
-/* Whether a word reads as a real number (spec 1.4: also with d, or without exponent letter). */
-bool reader_is_real(const struct deck_word *word, double *real);
-
 /* Reports an id that is not in 1 ... count; returns whether it is in the range. When there is
  * nothing to count the reason was reported before. */
 bool reader_check_id(struct reader *reader, const struct value *value, long count, const char *what);

@@ -102,35 +102,23 @@ void rkpm_dynamic_forces(struct dynamic *dynamic)
 
 /* --- places --- */
 
-/* Sum over a node's neighbours of a vector of theirs, by axes, times the shape functions at the node. */
-THREADS_INLINE void interpolate(const struct dynamic *dynamic, size_t node, double *const of[3], double *const to[3], const int d)
+static void interpolate(const struct dynamic *dynamic, double *const of[3], double *const to[3])
 {
-    const struct nodal *nodal = &dynamic->nodal;
-    const int32_t *neighbour = rkpm_nodal_neighbour(nodal, node);
-    const double *restrict value = rkpm_nodal_value(nodal, node);
-    double sum[3] = {0};
-    for (int k = 0; k < nodal->neighbours[node]; k++)
-        for (int a = 0; a < d; a++)
-            sum[a] += value[k] * of[a][neighbour[k]];
-    for (int a = 0; a < d; a++)
-        to[a][node] = sum[a];
-}
-
-static void interpolate_all(const struct dynamic *dynamic, double *const of[3], double *const to[3])
-{
+    const double *const from[3] = {of[0], of[1], of[2]};
 #pragma omp parallel for schedule(static) if (dynamic->count >= DYNAMIC_FEW_NODES)
-    for (size_t n = 0; n < dynamic->count; n++)
-        if (dynamic->dimension == 2)
-            interpolate(dynamic, n, of, to, 2);
-        else
-            interpolate(dynamic, n, of, to, 3);
+    for (size_t n = 0; n < dynamic->count; n++) {
+        double sum[3];
+        rkpm_nodal_interpolate(&dynamic->nodal, n, from, 1, sum, dynamic->dimension);
+        for (int a = 0; a < dynamic->dimension; a++)
+            to[a][n] = sum[a];
+    }
 }
 
 void rkpm_dynamic_places(struct dynamic *dynamic)
 {
     double *const *place = dynamic->store->real[COLUMN_POSITION];
     if (!dynamic->is_semi)
-        interpolate_all(dynamic, dynamic->coefficient, place);
+        interpolate(dynamic, dynamic->coefficient, place);
     for (int a = 0; a < dynamic->dimension && dynamic->is_semi; a++)
         memcpy(place[a], dynamic->coefficient[a], dynamic->count * sizeof(double));
 }
@@ -138,5 +126,5 @@ void rkpm_dynamic_places(struct dynamic *dynamic)
 void rkpm_dynamic_show(struct dynamic *dynamic)
 {
     rkpm_dynamic_places(dynamic);
-    interpolate_all(dynamic, dynamic->velocity, dynamic->store->real[COLUMN_VELOCITY]);
+    interpolate(dynamic, dynamic->velocity, dynamic->store->real[COLUMN_VELOCITY]);
 }

@@ -34,7 +34,6 @@ static void admit(struct dynamic *dynamic, size_t n)
     dynamic->count += n;
     dynamic->fixed.shown = (int32_t)dynamic->count;
     rkpm_dynamic_renew(dynamic);
-    rkpm_dynamic_show(dynamic);
     rkpm_dynamic_forces(dynamic);
     rkpm_dynamic_sum(dynamic);
     dynamic->start_energy = given + dynamic->sums.kinetic - before;

@@ -185,7 +185,6 @@ struct dynamic *rkpm_dynamic_open(const struct scene *scene, struct timers *time
     create_work(dynamic);
     start_motion(dynamic);
     rkpm_dynamic_renew(dynamic);
-    rkpm_dynamic_show(dynamic);
     rkpm_dynamic_forces(dynamic);
     rkpm_dynamic_sum(dynamic);
     rkpm_dynamic_start(dynamic);

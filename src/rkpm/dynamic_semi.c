@@ -12,17 +12,13 @@
 /* dx = sum Psi_J dx_J with the shape functions of the places before. */
 static void move_nodes(struct dynamic *dynamic)
 {
-    const struct nodal *nodal = &dynamic->nodal;
-    const size_t d = (size_t)dynamic->dimension, lanes = (size_t)dynamic_lanes(dynamic->dimension);
+    const double *const increment[3] = {dynamic->increment, dynamic->increment + 1, dynamic->increment + 2};
+    const int d = dynamic->dimension;
 #pragma omp parallel for schedule(static) if (dynamic->nodes >= DYNAMIC_FEW_NODES)
     for (size_t n = 0; n < dynamic->count; n++) {
-        const int32_t *neighbour = rkpm_nodal_neighbour(nodal, n);
-        const double *value = rkpm_nodal_value(nodal, n);
-        double way[3] = {0};
-        for (int k = 0; k < nodal->neighbours[n]; k++)
-            for (size_t a = 0; a < d; a++)
-                way[a] += value[k] * dynamic->increment[(size_t)neighbour[k] * lanes + a];
-        for (size_t a = 0; a < d; a++)
+        double way[3];
+        rkpm_nodal_interpolate(&dynamic->nodal, n, increment, (size_t)dynamic_lanes(d), way, d);
+        for (int a = 0; a < d; a++)
             dynamic->coefficient[a][n] += way[a];
     }
 }

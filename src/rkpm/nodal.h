@@ -7,6 +7,7 @@
 #ifndef RKPM_NODAL_H
 #define RKPM_NODAL_H
 
+#include "base/threads.h"
 #include "deck/scene_rkpm.h"
 #include "rkpm/search.h"
 
@@ -77,6 +78,18 @@ static inline const int32_t *rkpm_nodal_neighbour(const struct nodal *nodal, siz
 static inline const double *rkpm_nodal_value(const struct nodal *nodal, size_t node)
 {
     return nodal->value + node * (size_t)nodal->stride;
+}
+
+/* sum Psi_J(x_I) f_J at a node, of a vector whose numbers along an axis are `stride` apart. */
+THREADS_INLINE void rkpm_nodal_interpolate(const struct nodal *nodal, size_t node, const double *const of[3], size_t stride, double sum[3], const int d)
+{
+    const int32_t *neighbour = rkpm_nodal_neighbour(nodal, node);
+    const double *value = rkpm_nodal_value(nodal, node);
+    for (int a = 0; a < d; a++)
+        sum[a] = 0;
+    for (int k = 0; k < nodal->neighbours[node]; k++)
+        for (int a = 0; a < d; a++)
+            sum[a] += value[k] * of[a][(size_t)neighbour[k] * stride];
 }
 
 #endif

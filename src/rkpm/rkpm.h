@@ -65,7 +65,8 @@ struct rkpm {
     struct rkpm_level *levels;
     size_t n_levels;
     struct creep creep;      /* of problems in time, on one level */
-    double time, load, tip;  /* of their last step: the load's factor, the displacement along the last axis, as rkpm_result.tip */
+    double load, tip;        /* of their last step: the load's factor, the displacement along the last axis, as rkpm_result.tip */
+    double time;             /* each level counts 1 */
     long step;               /* levels or steps that are done */
     double updates;          /* nodes of them */
     struct instability instability;

@@ -69,6 +69,7 @@ struct instability rkpm_advance(struct rkpm *rkpm)
     if (rkpm->words->problem == PROBLEM_CREEP)
         return advance_time(rkpm);
     struct rkpm_level *level = &rkpm->levels[rkpm->step++];
+    rkpm->time = (double)rkpm->step;
     rkpm_set_field(rkpm, level);
     timers_enter(rkpm->timers, PHASE_SYSTEM);
     if (rkpm->words->problem == PROBLEM_APPROXIMATION)

@@ -3,6 +3,7 @@
  * expected values are the same numbers in C's spelling. */
 #include "base/memory.h"
 #include "check.h"
+#include "deck/number.h"
 #include "scene_text.h"
 
 #include <stdlib.h>
@@ -61,7 +62,7 @@ static void check_number(const char *text, size_t length, const struct number *e
     memcpy(room, text, length);
     memcpy(room + length, "9", 2);
     struct deck_word word = {.text = room, .length = length};
-    bool is_real = reader_is_real(&word, &real), is_integer = reader_is_integer(&word, &integer);
+    bool is_real = number_is_real(&word, &real), is_integer = number_is_integer(&word, &integer);
     bool good = is_real == expected->is_real && is_integer == expected->is_integer
              && (!is_real || real == expected->value) && (!is_integer || (double)integer == expected->value);
     check_true(name, good);
