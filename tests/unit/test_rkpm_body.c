@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/threads.h"
 #include "diagonalise.h"
+#include "most_threads.h"
 #include "rkpm_fixture.h"
 
 /* --- exact displacements --- */
@@ -267,6 +268,7 @@ static void check_bar(void)
 
 int main(void)
 {
+    begin_with_threads(5);
     for (int dimension = 1; dimension <= 3; dimension++)
         check_deformation(FUNCTION_PATCH, dimension, PLANE_STRESS);
     check_deformation(FUNCTION_BEAM, 2, PLANE_STRESS);

@@ -3,6 +3,7 @@
  * the balance of each step, any number of threads. */
 #include "base/memory.h"
 #include "base/threads.h"
+#include "most_threads.h"
 #include "rkpm_fixture.h"
 
 /* --- a point in plane stress under sigma_xx = 1 from t = 0 on --- */
@@ -133,6 +134,7 @@ static void check_threads(const char *block)
 
 int main(void)
 {
+    begin_with_threads(5);
     check_creep_point(MAXWELL_MIDPOINT, false, 7.995008703e-6, -3.597504351e-6, 1e-4);
     check_creep_point(MAXWELL_EXPONENTIAL, false, 7.995008703e-6, -3.597504351e-6, 1e-4);
     /* with all moduli relaxing alike Poisson's ratio stays */

@@ -5,6 +5,7 @@
 #include "base/threads.h"
 #include "check.h"
 #include "diagonalise.h"
+#include "most_threads.h"
 #include "random.h"
 #include "rkpm/cells.h"
 #include "rkpm/nodal.h"
@@ -459,6 +460,7 @@ static void check_degradation(void)
 
 int main(void)
 {
+    begin_with_threads(5);
     for (int r = 0; r < RULES; r++)
         for (int dimension = 1; dimension <= 3; dimension++) {
             check_linear(&rules[r], dimension);
