@@ -22,7 +22,7 @@ static struct deck_place place_of(const struct reader *reader, const char *name)
 /* Words of problems that mean nothing here. */
 static void check_words(struct reader *reader)
 {
-    static const char *const words[] = {"dime", "node", "basi", "supp", "grad", "prob", "inte", "mode", "star", "spin", "grav", "wall", "stab", NULL};
+    static const char *const words[] = {"dime", "node", "basi", "kern", "supp", "grad", "prob", "inte", "mode", "star", "spin", "grav", "wall", "stab", NULL};
     for (const struct keyword *row = rkpm_keywords; row->name; row++) {
         bool is_known = false;
         for (int i = 0; words[i]; i++)

@@ -16,6 +16,7 @@
 
 _Static_assert(sizeof(enum basis_form) == sizeof(int), "choices are stored as int");
 static const char *const bases[] = {[BASIS_LINEAR] = "linear", [BASIS_BILINEAR] = "bilinear", [BASIS_QUADRATIC] = "quad", NULL};
+static const char *const kernels[] = {[KERNEL_CUBIC] = "cubic", [KERNEL_QUINTIC] = "quintic", [KERNEL_EXPONENTIAL] = "exponential", NULL};
 static const char *const gradients[] = {[GRADIENT_DIRECT] = "direct", [GRADIENT_IMPLICIT] = "implicit", NULL};
 static const char *const problems[] = {[PROBLEM_APPROXIMATION] = "approx", [PROBLEM_HELMHOLTZ] = "helmholtz",
                                        [PROBLEM_POISSON] = "poisson", [PROBLEM_ELASTIC] = "elastic", [PROBLEM_CREEP] = "creep",
@@ -176,6 +177,9 @@ const struct keyword rkpm_keywords[] = {
             "proportion; the results are those of the last one. Without it once, as `node` says"},
     {.name = "basi", .long_name = "basis", .arguments = WORD("linear|bilinear|quad"), .choice = CHOICE(bases, basis),
      .doc = "what shape functions reproduce: monomials up to degree 1 (linear, default) or 2 (quad), or products of linear ones (bilinear)"},
+    {.name = "kern", .long_name = "kernel", .arguments = WORD("cubic|quintic|exponential"), .choice = CHOICE(kernels, kernel),
+     .doc = "what shape functions are made of: the cubic B-spline (default), the quintic one, which is smoother and narrower, or exp(-(z/0.4)^2) less what "
+            "it is at the end of the support, z = 1 (exponential)"},
     {.name = "supp", .long_name = "support", .arguments = LIST(NUMBER("a", "spacings", LIMIT_POSITIVE)), .apply = read_support,
      .doc = "support radius over the spacing, one for all axes or one for each; more than 1, with quad more than 2. 1.75 and 2.5 are "
             "good ones"},

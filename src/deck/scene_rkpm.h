@@ -11,6 +11,8 @@
 #include <stddef.h>
 
 enum basis_form { BASIS_LINEAR, BASIS_BILINEAR, BASIS_QUADRATIC };
+/* Of shape functions along an axis (spec rkpm 2.1). */
+enum kernel_form { KERNEL_CUBIC, KERNEL_QUINTIC, KERNEL_EXPONENTIAL };
 enum gradient_form { GRADIENT_DIRECT, GRADIENT_IMPLICIT, GRADIENT_NONE };
 /* Where the domain is integrated: Gauss points of cells, or the nodes (spec rkpm 3): directly (dni), with gradients smoothed
  * over boxes that don't fit together (snni) or over cells that do (scni); with gradients' gradients behind those of dni
@@ -40,6 +42,7 @@ enum { RKPM_BOX = 9, RKPM_ELEMENTS = 8, RKPM_LOADS = 32 }; /* numbers of `node b
 struct scene_rkpm {
     long dimension;
     enum basis_form basis;
+    enum kernel_form kernel;
     enum gradient_form gradient;
     enum integration_form integration;
     double support[3];    /* a: support radius over the spacing, by axis */

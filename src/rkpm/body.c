@@ -129,7 +129,7 @@ static bool is_near(const struct body *body, const struct points *points, size_t
 {
     bool near = true;
     for (int a = 0; a < body->dimension; a++)
-        near = near && fabs(points->x[a][point] - body->x[a][node]) < body->radius[a];
+        near = near && fabs(points->x[a][point] - body->x[a][node]) < body->support.radius[a];
     return near;
 }
 
@@ -348,9 +348,9 @@ static void open_points(struct body *body, const struct scene_rkpm *words, const
     cells_open(&body->cells, body->box, body->nodes, body->x);
     if (rule == INTEGRATION_DNI || rule == INTEGRATION_SNNI || rule == INTEGRATION_NSNI) {
         const double *const moment[] = {body->cells.moment[0], body->cells.moment[1], body->cells.moment[2]};
-        rkpm_nodal_open(&body->nodal, body->dimension, rule, words->gradient, body->nodes, body->x, body->cells.volume, moment, shape->radius, true);
+        rkpm_nodal_open(&body->nodal, body->dimension, rule, words->gradient, body->nodes, body->x, body->cells.volume, moment, &shape->support, true);
     } else {
-        rkpm_nodal_open_cells(&body->nodal, rule, &body->cells, body->x, shape->radius);
+        rkpm_nodal_open_cells(&body->nodal, rule, &body->cells, body->x, &shape->support);
     }
     points_open_nodes(&body->inside, &body->nodal);
     points_open_cell_faces(&body->faces, shape, &body->cells, words->gradient);
@@ -372,7 +372,7 @@ void body_open(struct body *body, const struct scene_rkpm *words, const struct n
     *body = (struct body){.dimension = box->dimension, .nodes = nodes, .box = box, .x = x, .constraint = words->constraint, .beta = beta,
                             .is_symmetric = !words->is_consistent, .n_marks = threads_available()};
     open_points(body, words, shape, gauss, boundary_gauss);
-    memcpy(body->radius, shape->radius, sizeof body->radius);
+    body->support = shape->support;
     body->is_held = memory_array(body->faces.count, sizeof *body->is_held, "points");
     body->given = memory_array(body->faces.count * (size_t)body->dimension, sizeof(double), "points");
     for (size_t i = 0; i < body->faces.count; i++)

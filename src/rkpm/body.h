@@ -26,7 +26,7 @@ struct body {
     double *const *x;
     enum constraint_form constraint;
     double beta;          /* of penalty and Nitsche's method */
-    double radius[3];     /* of the supports */
+    struct rkpm_support support;
     bool has_cells, has_nodal, is_symmetric;
     struct cells cells;
     struct nodal nodal;

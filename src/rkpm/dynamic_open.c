@@ -145,14 +145,14 @@ static size_t expected_nodes(const struct dynamic *dynamic)
 static void open_rows(struct dynamic *dynamic)
 {
     const struct scene_rkpm *words = dynamic->words;
-    double radius[3] = {1, 1, 1};
+    struct rkpm_support support = {words->kernel, {1, 1, 1}};
     for (int a = 0; a < dynamic->dimension; a++) {
-        radius[a] = words->support[a] * dynamic->spacing;
+        support.radius[a] = words->support[a] * dynamic->spacing;
         for (size_t n = 0; n < dynamic->store->count; n++)
             dynamic->coefficient[a][n] = dynamic->rest[a][n];
     }
     rkpm_nodal_open(&dynamic->nodal, dynamic->dimension, words->integration, words->gradient, expected_nodes(dynamic),
-                    dynamic->is_semi ? dynamic->coefficient : dynamic->rest, dynamic->volumes, NULL, radius, !dynamic->is_semi);
+                    dynamic->is_semi ? dynamic->coefficient : dynamic->rest, dynamic->volumes, NULL, &support, !dynamic->is_semi);
 }
 
 /* What curves show has to be known in each step. */

@@ -94,8 +94,8 @@ static void choose_fixed(struct dynamic *dynamic)
     find_box(dynamic, low, high);
     bool is_near = true;
     for (int a = 0; a < dynamic->dimension; a++) {
-        low[a] -= 2 * dynamic->nodal.radius[a];
-        high[a] += 2 * dynamic->nodal.radius[a];
+        low[a] -= 2 * dynamic->nodal.support.radius[a];
+        high[a] += 2 * dynamic->nodal.support.radius[a];
         is_near = is_near && low[a] <= fixed->high[a] && high[a] >= fixed->low[a];
     }
     if (!is_near)

@@ -6,7 +6,6 @@
 #define RKPM_LINEAR_H
 
 #include "base/threads.h"
-#include "rkpm/kernel.h"
 #include "rkpm/moments.h"
 #include "rkpm/nodal.h"
 
@@ -31,8 +30,8 @@ struct polynomials {
 };
 
 /* Offsets, kernels and, where they are wanted, slopes; zeros behind them, up to a whole number of lanes. */
-THREADS_INLINE void set_kernels(const struct nodal *nodal, const double point[AXES], double reach, int n, bool wants_slopes,
-                                struct nodal_scratch *scratch, const int d)
+THREADS_INLINE void set_kernels_of(const enum kernel_form form, const struct nodal *nodal, const double point[AXES], double reach, int n,
+                                   bool wants_slopes, struct nodal_scratch *scratch, const int d)
 {
     double *restrict kernel = scratch->kernel;
     for (int k = 0; k < n; k++)
@@ -40,10 +39,10 @@ THREADS_INLINE void set_kernels(const struct nodal *nodal, const double point[AX
     for (int a = 0; a < d; a++) {
         const double *restrict place = scratch->place[a];
         double *restrict xi = scratch->xi[a];
-        const double radius = nodal->radius[a] * reach, scale = nodal->radius[a];
+        const double radius = nodal->support.radius[a] * reach, scale = nodal->support.radius[a];
         for (int k = 0; k < n; k++) {
             xi[k] = (point[a] - place[k]) / scale;
-            kernel[k] *= rkpm_kernel(fabs(point[a] - place[k]) / radius);
+            kernel[k] *= rkpm_kernel(form, fabs(point[a] - place[k]) / radius);
         }
     }
     for (int k = 0; k < n; k++)
@@ -56,13 +55,25 @@ THREADS_INLINE void set_kernels(const struct nodal *nodal, const double point[AX
     for (int a = 0; a < d && wants_slopes; a++) {
         const double *restrict place = scratch->place[a];
         double *restrict slope = scratch->slope[a];
-        const double radius = nodal->radius[a] * reach;
+        const double radius = nodal->support.radius[a] * reach;
         for (int k = 0; k < n; k++) {
-            const double offset = point[a] - place[k], z = fabs(offset) / radius, along = rkpm_kernel_slope(z) / radius;
-            const double others = kernel[k] > 0 ? kernel[k] / rkpm_kernel(z) : 0;
+            const double offset = point[a] - place[k], z = fabs(offset) / radius, along = rkpm_kernel_slope(form, z) / radius;
+            const double others = kernel[k] > 0 ? kernel[k] / rkpm_kernel(form, z) : 0;
             slope[k] = (offset < 0 ? -along : along) * others;
         }
     }
+}
+
+/* The form is a constant of each loop. */
+THREADS_INLINE void set_kernels(const struct nodal *nodal, const double point[AXES], double reach, int n, bool wants_slopes,
+                                struct nodal_scratch *scratch, const int d)
+{
+    if (nodal->support.kernel == KERNEL_CUBIC)
+        set_kernels_of(KERNEL_CUBIC, nodal, point, reach, n, wants_slopes, scratch, d);
+    else if (nodal->support.kernel == KERNEL_QUINTIC)
+        set_kernels_of(KERNEL_QUINTIC, nodal, point, reach, n, wants_slopes, scratch, d);
+    else
+        set_kernels_of(KERNEL_EXPONENTIAL, nodal, point, reach, n, wants_slopes, scratch, d);
 }
 
 /* sum a b w in LANES partial sums, the same for every processor. */
@@ -135,7 +146,7 @@ THREADS_INLINE void solve_polynomial(const struct nodal *nodal, const struct pol
 {
     for (int i = 0; i < TERMS; i++)
         b[i] = 0;
-    b[axis < 0 ? 0 : 1 + axis] = axis < 0 ? 1 : -1 / nodal->radius[axis];
+    b[axis < 0 ? 0 : 1 + axis] = axis < 0 ? 1 : -1 / nodal->support.radius[axis];
     moments_solve(&polynomials->moments, b);
 }
 
@@ -143,7 +154,7 @@ THREADS_INLINE void solve_polynomial(const struct nodal *nodal, const struct pol
 THREADS_INLINE void apply_derivative(const struct nodal *nodal, const struct nodal_scratch *scratch, int n, const struct polynomials *polynomials,
                                      const double b[TERMS], int axis, double *restrict result, const int d)
 {
-    const double scale = nodal->radius[axis];
+    const double scale = nodal->support.radius[axis];
     double change[TERMS] = {0}, along = 0;
     for (int i = 0; i <= d; i++) {
         for (int j = 0; j <= d; j++)

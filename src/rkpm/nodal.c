@@ -23,7 +23,7 @@ THREADS_INLINE int find_neighbours(struct nodal *nodal, size_t node, double slac
     int from[3], to[3], cell[3], n = 0;
     for (int a = 0; a < d; a++) {
         middle[a] = nodal->x[a][node];
-        inner[a] = nodal->radius[a] * nodal->reach[node];
+        inner[a] = nodal->support.radius[a] * nodal->reach[node];
         outer[a] = inner[a] + slack;
         far = fmax(far, outer[a] / search->size[a]);
     }
@@ -331,7 +331,7 @@ static bool enlarge(struct nodal *nodal)
 
 void rkpm_nodal_renew(struct nodal *nodal)
 {
-    search_renew(&nodal->search, nodal->count, nodal->x, nodal->radius);
+    search_renew(&nodal->search, nodal->count, nodal->x, nodal->support.radius);
     for (size_t node = 0; node < nodal->count; node++)
         nodal->reach[node] = 1;
     for (int i = 0;; i++) {
@@ -348,27 +348,26 @@ void rkpm_nodal_renew(struct nodal *nodal)
 }
 
 /* With what the caller has said. */
-static void open_rows(struct nodal *nodal, const double radius[3])
+static void open_rows(struct nodal *nodal)
 {
     const size_t count = nodal->count;
-    for (int a = 0; a < 3; a++)
-        nodal->radius[a] = radius[a];
     make_node_room(nodal);
     nodal->n_scratch = threads_available();
     nodal->scratch = memory_array((size_t)nodal->n_scratch, sizeof *nodal->scratch, "rows of nodes");
-    search_open(&nodal->search, nodal->dimension, count, nodal->x, radius);
+    search_open(&nodal->search, nodal->dimension, count, nodal->x, nodal->support.radius);
     make_room(nodal, 8);
     rkpm_nodal_renew(nodal);
 }
 
 void rkpm_nodal_open(struct nodal *nodal, int dimension, enum integration_form rule, enum gradient_form gradient, size_t count,
-                     double *const *x, const double *volume, const double *const *moment, const double radius[3], bool grows)
+                     double *const *x, const double *volume, const double *const *moment, const struct rkpm_support *support, bool grows)
 {
-    *nodal = (struct nodal){.dimension = dimension, .rule = rule, .gradient = gradient, .count = count, .x = x, .volume = volume, .grows = grows};
+    *nodal = (struct nodal){.dimension = dimension, .rule = rule, .gradient = gradient, .count = count, .x = x, .volume = volume,
+                            .support = *support, .grows = grows};
     nodal->rows = rule == INTEGRATION_NSNI ? 1 + dimension : 1;
     for (int a = 0; a < 3; a++)
         nodal->moment[a] = moment ? moment[a] : NULL;
-    open_rows(nodal, radius);
+    open_rows(nodal);
 }
 
 void rkpm_nodal_resize(struct nodal *nodal, size_t count)
@@ -379,14 +378,15 @@ void rkpm_nodal_resize(struct nodal *nodal, size_t count)
         make_room(nodal, nodal->stride);
 }
 
-void rkpm_nodal_open_cells(struct nodal *nodal, enum integration_form rule, const struct cells *cells, double *const *x, const double radius[3])
+void rkpm_nodal_open_cells(struct nodal *nodal, enum integration_form rule, const struct cells *cells, double *const *x,
+                           const struct rkpm_support *support)
 {
     *nodal = (struct nodal){.dimension = cells->dimension, .rule = rule, .gradient = GRADIENT_IMPLICIT, .count = cells->count, .x = x,
-                            .volume = cells->volume, .cells = cells, .grows = true};
+                            .volume = cells->volume, .cells = cells, .support = *support, .grows = true};
     nodal->rows = 1 + (rule == INTEGRATION_NSNI_SCNI ? cells->dimension : rule == INTEGRATION_MSCNI ? cells->most : 0);
     for (int a = 0; a < 3; a++)
         nodal->moment[a] = cells->moment[a];
-    open_rows(nodal, radius);
+    open_rows(nodal);
 }
 
 void rkpm_nodal_close(struct nodal *nodal)

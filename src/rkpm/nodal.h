@@ -9,6 +9,7 @@
 
 #include "base/threads.h"
 #include "deck/scene_rkpm.h"
+#include "rkpm/kernel.h"
 #include "rkpm/search.h"
 
 #include <stdbool.h>
@@ -25,7 +26,7 @@ struct nodal {
     const double *volume;    /* the caller's: of the nodes' cells */
     const struct cells *cells; /* the caller's, of scni, nsni with scni, mscni; else NULL */
     const double *moment[3]; /* the caller's, of nsni: integral of (x_a - x_Ia)^2 over the cell; NULL: cells are squares or cubes */
-    double radius[3];        /* of the supports */
+    struct rkpm_support support;
     bool grows;              /* supports grow by 1.2 up to three times where nodes are too few; else the order is lowered at once */
 
     int rows;            /* per node: 1; with nsni 1 + dimension; with mscni 1 + triangles of a cell, those that it lacks of weight 0 */
@@ -47,9 +48,10 @@ struct nodal {
 
 /* Makes rows of nodes x[axis][node], whose arrays stay where they are; `moment` may be NULL. */
 void rkpm_nodal_open(struct nodal *nodal, int dimension, enum integration_form rule, enum gradient_form gradient, size_t count,
-                     double *const *x, const double *volume, const double *const *moment, const double radius[3], bool grows);
+                     double *const *x, const double *volume, const double *const *moment, const struct rkpm_support *support, bool grows);
 /* The same over cells that fit together, with rules that need them, mscni in two dimensions only; the nodes stay where they are. */
-void rkpm_nodal_open_cells(struct nodal *nodal, enum integration_form rule, const struct cells *cells, double *const *x, const double radius[3]);
+void rkpm_nodal_open_cells(struct nodal *nodal, enum integration_form rule, const struct cells *cells, double *const *x,
+                           const struct rkpm_support *support);
 void rkpm_nodal_close(struct nodal *nodal);
 
 /* Makes the rows anew after places, volumes or moments have changed. Nodes are shared among the threads; the rows don't

@@ -58,15 +58,16 @@ static void create_nodes(struct rkpm_level *level, const struct scene_rkpm *word
 static void open_level(struct rkpm *rkpm, struct rkpm_level *level, const long numbers[3])
 {
     const struct scene_rkpm *words = rkpm->words;
-    double radius[3] = {1, 1, 1}, smallest = INFINITY;
+    struct rkpm_support support = {words->kernel, {1, 1, 1}};
+    double smallest = INFINITY;
     create_box(level, words, numbers);
     create_nodes(level, words);
     for (int a = 0; a < level->box.dimension; a++) {
-        radius[a] = words->support[a] * level->box.spacing[a];
+        support.radius[a] = words->support[a] * level->box.spacing[a];
         smallest = fmin(smallest, level->box.spacing[a]);
     }
     level->beta = words->beta_over_spacing ? words->beta / smallest : words->beta;
-    rkpm_shape_open(&level->shape, level->box.dimension, words->basis, level->count, level->x, radius);
+    rkpm_shape_open(&level->shape, level->box.dimension, words->basis, level->count, level->x, &support);
     level->coefficient = memory_array(level->count * (scene_rkpm_has_body(rkpm->words) ? (size_t)words->dimension : 1), sizeof(double), "coefficients");
     if (scene_rkpm_has_body(rkpm->words)) {
         rkpm_elastic_open(rkpm, level);

@@ -138,7 +138,7 @@ static int most_neighbours(const struct rkpm_shape *shape, const double spacing[
 {
     double product = 1;
     for (int a = 0; a < shape->dimension; a++)
-        product *= ceil(2 * shape->radius[a] / spacing[a]);
+        product *= ceil(2 * shape->support.radius[a] / spacing[a]);
     return (int)product;
 }
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "rkpm/shape.h"
 #include "base/memory.h"
-#include "rkpm/kernel.h"
 #include "rkpm/moments.h"
 
 #include <math.h>
@@ -26,14 +25,14 @@ static void open_row(struct rkpm_shape *shape)
     }
 }
 
-void rkpm_shape_open(struct rkpm_shape *shape, int dimension, enum basis_form form, size_t count, double *const *x, const double radius[3])
+void rkpm_shape_open(struct rkpm_shape *shape, int dimension, enum basis_form form, size_t count, double *const *x,
+                     const struct rkpm_support *support)
 {
-    *shape = (struct rkpm_shape){.dimension = dimension, .x = x, .form = form, .top = form == BASIS_LINEAR ? 1 : 2};
-    memcpy(shape->radius, radius, sizeof shape->radius);
+    *shape = (struct rkpm_shape){.dimension = dimension, .x = x, .support = *support, .form = form, .top = form == BASIS_LINEAR ? 1 : 2};
     shape->basis[0] = basis_complete(dimension, 0);
     shape->basis[1] = basis_complete(dimension, 1);
     shape->basis[2] = form == BASIS_BILINEAR ? basis_tensor(dimension) : basis_complete(dimension, 2);
-    search_open(&shape->search, dimension, count, x, radius);
+    search_open(&shape->search, dimension, count, x, support->radius);
     shape->most = search_most(&shape->search, pow(MOMENTS_ENLARGEMENT, MOMENTS_ENLARGEMENTS));
     open_row(shape);
 }
@@ -68,14 +67,16 @@ void rkpm_shape_close(struct rkpm_shape *shape)
 /* Takes a node in where its kernel reaches the point: the product of those along the axes, and its slopes. */
 static void take_node(struct rkpm_shape *shape, int32_t node, const double point[3])
 {
+    const enum kernel_form kernel = shape->support.kernel;
     const int n = shape->row.count;
     double phi[3], slope[3], product = 1;
     for (int a = 0; a < shape->dimension; a++) {
-        const double radius = shape->radius[a] * shape->row.reach, offset = point[a] - shape->x[a][node], z = fabs(offset) / radius;
+        const double radius = shape->support.radius[a] * shape->row.reach, offset = point[a] - shape->x[a][node], z = fabs(offset) / radius;
         if (z >= 1)
             return;
-        phi[a] = rkpm_kernel(z);
-        slope[a] = copysign(rkpm_kernel_slope(z) / radius, offset * rkpm_kernel_slope(z));
+        const double along = rkpm_kernel_slope(kernel, z);
+        phi[a] = rkpm_kernel(kernel, z);
+        slope[a] = copysign(along / radius, offset * along);
         product *= phi[a];
     }
     if (product <= MOMENTS_LEAST_KERNEL)
@@ -107,7 +108,7 @@ static void find_nodes(struct rkpm_shape *shape, const double point[3])
 static void scaled_offset(const struct rkpm_shape *shape, const double point[3], int n, double xi[3])
 {
     for (int a = 0; a < shape->dimension; a++)
-        xi[a] = (point[a] - shape->x[a][shape->row.node[n]]) / shape->radius[a];
+        xi[a] = (point[a] - shape->x[a][shape->row.node[n]]) / shape->support.radius[a];
 }
 
 /* M = sum H H^T Phi (3.6), its lower half; keeps H of each node. */
@@ -154,8 +155,8 @@ static void direct_gradient(struct rkpm_shape *shape, const struct basis *basis,
         scaled_offset(shape, point, n, xi);
         basis_slope(basis, xi, axis, slope);
         const double own = product(moments->count, b, h);
-        const double along_slope = own * shape->kernel[n] / shape->radius[axis];
-        const double along_value = product(moments->count, b, slope) / shape->radius[axis] * shape->kernel[n] + own * shape->kernel_slope[axis][n];
+        const double along_slope = own * shape->kernel[n] / shape->support.radius[axis];
+        const double along_value = product(moments->count, b, slope) / shape->support.radius[axis] * shape->kernel[n] + own * shape->kernel_slope[axis][n];
         for (int m = 0; m < moments->count; m++)
             change[m] -= slope[m] * along_slope + h[m] * along_value;
         shape->row.gradient[axis][n] = along_value;
@@ -169,7 +170,7 @@ static void direct_gradient(struct rkpm_shape *shape, const struct basis *basis,
 static void implicit_gradient(struct rkpm_shape *shape, const struct moments *moments, int axis)
 {
     double b[BASIS_LARGEST] = {0};
-    b[1 + axis] = -1 / shape->radius[axis];
+    b[1 + axis] = -1 / shape->support.radius[axis];
     moments_solve(moments, b);
     for (int n = 0; n < shape->row.count; n++)
         shape->row.gradient[axis][n] = product(moments->count, b, shape->monomials + (size_t)n * BASIS_LARGEST) * shape->kernel[n];

@@ -6,6 +6,7 @@
 
 #include "deck/scene_rkpm.h"
 #include "rkpm/basis.h"
+#include "rkpm/kernel.h"
 #include "rkpm/search.h"
 
 #include <stdbool.h>
@@ -23,7 +24,7 @@ struct shape_row {
 struct rkpm_shape {
     int dimension;
     double *const *x; /* nodes' coordinates, by axis */
-    double radius[3]; /* of the supports; the scale s of offsets too */
+    struct rkpm_support support; /* its radius is the scale s of offsets too */
     enum basis_form form;
     struct basis basis[3]; /* those to fall back on: of order 0 and 1, and the one asked for */
     int top;               /* place of the last one */
@@ -40,7 +41,8 @@ struct rkpm_shape {
 int rkpm_shape_order(enum basis_form form);
 
 /* Shape functions of nodes x[axis][node], which stay where they are. */
-void rkpm_shape_open(struct rkpm_shape *shape, int dimension, enum basis_form form, size_t count, double *const *x, const double radius[3]);
+void rkpm_shape_open(struct rkpm_shape *shape, int dimension, enum basis_form form, size_t count, double *const *x,
+                     const struct rkpm_support *support);
 void rkpm_shape_close(struct rkpm_shape *shape);
 
 /* The same shape functions with a row of their own, for another thread: `shape` has to stay open. */

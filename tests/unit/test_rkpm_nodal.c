@@ -51,12 +51,18 @@ static void set_lattice(struct lattice *lattice, int dimension, int side, double
     }
 }
 
-static void open_rows(struct nodal *nodal, const struct lattice *lattice, enum integration_form rule, enum gradient_form gradient, double support)
+static void open_rows_of(enum kernel_form kernel, struct nodal *nodal, const struct lattice *lattice, enum integration_form rule,
+                         enum gradient_form gradient, double support)
 {
     const double radius = support / (lattice->side - 1);
     const double *const moment[] = {lattice->moment[0], lattice->moment[1], lattice->moment[2]};
     rkpm_nodal_open(nodal, lattice->dimension, rule, gradient, lattice->count, lattice->x, lattice->volume, moment,
-                    (const double[3]){radius, radius, radius}, true);
+                    &(struct rkpm_support){kernel, {radius, radius, radius}}, true);
+}
+
+static void open_rows(struct nodal *nodal, const struct lattice *lattice, enum integration_form rule, enum gradient_form gradient, double support)
+{
+    open_rows_of(KERNEL_CUBIC, nodal, lattice, rule, gradient, support);
 }
 
 static struct node_box box_of(const struct lattice *lattice)
@@ -210,7 +216,7 @@ static void check_cell_rows(const struct rule *rule, int dimension)
     const struct node_box box = box_of(&lattice);
     const double radius = 2 * box.spacing[0];
     cells_open(&cells, &box, lattice.count, lattice.x);
-    rkpm_nodal_open_cells(&nodal, rule->rule, &cells, lattice.x, (const double[3]){radius, radius, radius});
+    rkpm_nodal_open_cells(&nodal, rule->rule, &cells, lattice.x, &(struct rkpm_support){KERNEL_CUBIC, {radius, radius, radius}});
     check_rows_of_linear(rule->name, &nodal, lattice.side);
     memset(sum, 0, sizeof sum);
     for (size_t i = 0; i < nodal.count; i++)
@@ -241,7 +247,7 @@ static double found(const struct shape_row *row, const double *numbers, int32_t 
     return 0;
 }
 
-static void check_against_points(int dimension)
+static void check_against_points(enum kernel_form kernel, int dimension)
 {
     struct lattice lattice;
     struct nodal rows[RULES];
@@ -250,9 +256,9 @@ static void check_against_points(int dimension)
     double direct = 0, implicit = 0, smooth = 0, second = 0;
     set_lattice(&lattice, dimension, dimension == 3 ? 6 : 11, 0.25);
     const double h = 1.0 / (lattice.side - 1), radius = 2 * h, step = 1e-5 * h;
-    rkpm_shape_open(&shape, dimension, BASIS_LINEAR, lattice.count, lattice.x, (const double[3]){radius, radius, radius});
+    rkpm_shape_open(&shape, dimension, BASIS_LINEAR, lattice.count, lattice.x, &(struct rkpm_support){kernel, {radius, radius, radius}});
     for (int r = 0; r < RULES; r++)
-        open_rows(&rows[r], &lattice, rules[r].rule, rules[r].gradient, 2);
+        open_rows_of(kernel, &rows[r], &lattice, rules[r].rule, rules[r].gradient, 2);
     const double half = 0.5 * pow(lattice.volume[node], 1.0 / dimension);
     for (int a = 0; a < dimension; a++)
         for (int r = 0; r < RULES; r++)
@@ -371,7 +377,7 @@ static void check_softest(void)
     struct gauss gauss = {.stiffness = &stiffness};
     const struct node_box box = {2, {11, 11, 1}, {0}, {0.1, 0.1, 0}};
     stiffness.poisson = 0.3;
-    rkpm_shape_open(&gauss.shape, 2, BASIS_LINEAR, lattice.count, lattice.x, (const double[3]){0.2, 0.2, 0.2});
+    rkpm_shape_open(&gauss.shape, 2, BASIS_LINEAR, lattice.count, lattice.x, &(struct rkpm_support){KERNEL_CUBIC, {0.2, 0.2, 0.2}});
     quadrature_inside(&box, 2, add_gauss, &gauss);
     rkpm_shape_close(&gauss.shape);
     check_near("softest mode of a free square, Gauss", softest(&stiffness, &zeros), 3.91e-2, 5e-5);
@@ -386,7 +392,7 @@ static void check_softest(void)
     cells_open(&cells, &box, lattice.count, lattice.x);
     for (int r = 0; r < CELL_RULES; r++) {
         struct nodal nodal;
-        rkpm_nodal_open_cells(&nodal, cell_rules[r].rule, &cells, lattice.x, (const double[3]){0.2, 0.2, 0.2});
+        rkpm_nodal_open_cells(&nodal, cell_rules[r].rule, &cells, lattice.x, &(struct rkpm_support){KERNEL_CUBIC, {0.2, 0.2, 0.2}});
         check_softest_of(cell_rules[r].name, &nodal, &stiffness, of_cells[r]);
         rkpm_nodal_close(&nodal);
     }
@@ -467,7 +473,8 @@ int main(void)
             check_renewal(&rules[r], dimension);
         }
     for (int dimension = 1; dimension <= 3; dimension++) {
-        check_against_points(dimension);
+        for (int kernel = KERNEL_CUBIC; kernel <= KERNEL_EXPONENTIAL; kernel++)
+            check_against_points((enum kernel_form)kernel, dimension);
         check_cells(dimension, 0);
         for (int r = 0; r < CELL_RULES; r++)
             if (dimension == 2 || cell_rules[r].rule != INTEGRATION_MSCNI)
