@@ -12,10 +12,12 @@ static void print_box(const struct rkpm *rkpm, const struct rkpm_level *level, F
     for (int a = 0; a < level->box.dimension; a++)
         fprintf(stream, "%s%.6g", a == 0 ? ", spacing " : " ", level->box.spacing[a]);
     const bool has_body = scene_rkpm_has_body(rkpm->words);
+    static const char *const iterations[] = {[SOLVER_CONJUGATE] = ", solved by conjugate gradients",
+                                             [SOLVER_BICGSTAB] = ", solved by stabilised biconjugate gradients"};
     const struct solver *solver = rkpm->words->problem == PROBLEM_CREEP ? rkpm->creep.solver : &level->solver;
     if (rkpm->words->problem != PROBLEM_APPROXIMATION)
-        fprintf(stream, "; %d unknowns, matrix of %.0f bytes at most%s", has_body ? solver->count : level->system.count,
-                has_body ? solver->bytes : level->system.bytes, has_body && solver->kind == SOLVER_CONJUGATE ? ", solved by conjugate gradients" : "");
+        fprintf(stream, "; %d unknowns, matrix of %.0f bytes at most%s", has_body ? solver->unknowns : level->system.count,
+                has_body ? solver->bytes : level->system.bytes, has_body && solver_iterates(solver) ? iterations[solver->kind] : "");
     fprintf(stream, "\n");
 }
 
@@ -62,7 +64,7 @@ static void print_errors(const struct rkpm *rkpm, FILE *stream)
 void summary_rkpm_end(const struct run *run, double seconds, enum status status, FILE *stream)
 {
     const struct rkpm *rkpm = run->rkpm;
-    long enlarged = 0, lowered = 0;
+    long enlarged = 0, lowered = 0, given_up = 0;
     summary_timers(rkpm->updates, &run->timers, seconds, stream);
     const bool is_creep = rkpm->words->problem == PROBLEM_CREEP;
     const long levels = is_creep ? 1 : rkpm->step;
@@ -71,7 +73,10 @@ void summary_rkpm_end(const struct run *run, double seconds, enum status status,
     for (long i = 0; i < levels; i++) {
         enlarged += rkpm->levels[i].result.enlarged;
         lowered += rkpm->levels[i].result.lowered;
+        given_up += rkpm->levels[i].solver.has_given_up;
     }
+    if (given_up > 0)
+        fprintf(stream, "the iteration did not get there in %ld of the problems: solved by elimination\n", given_up);
     fprintf(stream, is_creep ? "%s after %ld of %zu steps: " : "%s after %ld of %zu problems: ", summary_ending(status), rkpm->step, is_creep ? rkpm->creep.n_steps : rkpm->n_levels);
     if (enlarged == 0 && lowered == 0)
         fprintf(stream, "no point had too few nodes\n");

@@ -35,6 +35,32 @@ double *sparse_block(const struct sparse *sparse, int32_t row, int32_t column)
     return sparse->value + low * (size_t)(sparse->size * sparse->size);
 }
 
+bool sparse_invert(int size, const double *block, double *inverse)
+{
+    double a[3][6] = {{0}};
+    for (int i = 0; i < size; i++)
+        for (int j = 0; j < size; j++) {
+            a[i][j] = block[i * size + j];
+            a[i][size + j] = i == j;
+        }
+    for (int i = 0; i < size; i++) {
+        const double pivot = a[i][i];
+        if (!(pivot > 0))
+            return false;
+        for (int j = 0; j < 2 * size; j++)
+            a[i][j] /= pivot;
+        for (int k = 0; k < size; k++) {
+            const double factor = k == i ? 0 : a[k][i];
+            for (int j = 0; j < 2 * size; j++)
+                a[k][j] -= factor * a[i][j];
+        }
+    }
+    for (int i = 0; i < size; i++)
+        for (int j = 0; j < size; j++)
+            inverse[i * size + j] = a[i][size + j];
+    return true;
+}
+
 /* Rows of blocks of a size that the caller knows. */
 THREADS_INLINE void multiply_row(const struct sparse *sparse, int32_t row, const double *restrict x, double *restrict y, const int size)
 {

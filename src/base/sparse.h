@@ -3,6 +3,7 @@
 #ifndef BASE_SPARSE_H
 #define BASE_SPARSE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -17,6 +18,9 @@ struct sparse {
 /* Room for rows with so many blocks each; their columns are the caller's to set. */
 void sparse_open(struct sparse *sparse, int32_t count, int size, const int32_t *blocks);
 void sparse_close(struct sparse *sparse);
+
+/* The inverse of a block of a size by elimination; false where a pivot is not positive. */
+bool sparse_invert(int size, const double *block, double *inverse);
 
 /* The block in a row and column that has one. */
 double *sparse_block(const struct sparse *sparse, int32_t row, int32_t column);

@@ -79,7 +79,7 @@ static struct solver *solver_for(struct creep *creep, double length)
 {
     const int which = length == 0;
     struct solver *solver = &creep->solver[which];
-    const bool is_current = creep->solved_length[which] == length && (solver->kind != SOLVER_CONJUGATE || creep->latest == which);
+    const bool is_current = creep->solved_length[which] == length && (!solver_iterates(solver) || creep->latest == which);
     if (is_current)
         return solver;
     body_assemble(creep->body, relaxation_moduli(&creep->relaxation, length));

@@ -117,6 +117,12 @@ static void precondition(void *context, const double *r, double *z)
     coarse_add(&iteration->coarse, iteration->is_held, r, z);
 }
 
+static void precondition_unsymmetric(void *context, const double *r, double *z)
+{
+    const struct iteration *iteration = context;
+    incomplete_solve(&iteration->incomplete, r, z);
+}
+
 /* --- the whole --- */
 
 void iteration_open(struct iteration *iteration, const struct body *body)
@@ -132,7 +138,10 @@ void iteration_open(struct iteration *iteration, const struct body *body)
     iteration->residual = memory_array(count, sizeof(double), "the linear system");
     iteration->solution = memory_array(count, sizeof(double), "the linear system");
     order_held(iteration);
-    coarse_open(&iteration->coarse, body);
+    if (body->is_symmetric)
+        coarse_open(&iteration->coarse, body);
+    else
+        incomplete_open(&iteration->incomplete, &body->matrix);
 }
 
 void iteration_close(struct iteration *iteration)
@@ -150,34 +159,9 @@ void iteration_close(struct iteration *iteration)
     banded_close(&iteration->rows);
     banded_close(&iteration->columns);
     coarse_close(&iteration->coarse);
-    conjugate_close(&iteration->room);
-}
-
-/* The inverse of a small block by elimination; false where a pivot is not positive. */
-static bool invert(int d, const double *block, double *inverse)
-{
-    double a[3][6] = {{0}};
-    for (int i = 0; i < d; i++)
-        for (int j = 0; j < d; j++) {
-            a[i][j] = block[i * d + j];
-            a[i][d + j] = i == j;
-        }
-    for (int i = 0; i < d; i++) {
-        const double pivot = a[i][i];
-        if (!(pivot > 0))
-            return false;
-        for (int j = 0; j < 2 * d; j++)
-            a[i][j] /= pivot;
-        for (int k = 0; k < d; k++) {
-            const double factor = k == i ? 0 : a[k][i];
-            for (int j = 0; j < 2 * d; j++)
-                a[k][j] -= factor * a[i][j];
-        }
-    }
-    for (int i = 0; i < d; i++)
-        for (int j = 0; j < d; j++)
-            inverse[i * d + j] = a[i][d + j];
-    return true;
+    incomplete_close(&iteration->incomplete);
+    conjugate_close(&iteration->conjugate);
+    bicgstab_close(&iteration->bicgstab);
 }
 
 bool iteration_factor(struct iteration *iteration)
@@ -186,23 +170,39 @@ bool iteration_factor(struct iteration *iteration)
     const int d = body->dimension;
     bool good = true;
     for (int32_t row = 0; row < (int32_t)body->nodes; row++)
-        good = invert(d, sparse_block(&body->matrix, row, row), iteration->inverse + (size_t)row * (size_t)(d * d)) && good;
+        good = sparse_invert(d, sparse_block(&body->matrix, row, row), iteration->inverse + (size_t)row * (size_t)(d * d)) && good;
     if (body->held.rows > 0) {
         banded_close(&iteration->rows);
         banded_close(&iteration->columns);
         open_held(iteration);
         good = banded_factor(&iteration->rows) && banded_factor(&iteration->columns) && good;
     }
-    if (good)
+    if (good && body->is_symmetric)
         coarse_factor(&iteration->coarse, iteration->is_held);
-    return good;
+    return good && (body->is_symmetric || incomplete_factor(&iteration->incomplete, iteration->is_held));
+}
+
+/* The solution to a right side, which becomes what is left of it; false where that is not small. */
+static bool iterate(struct iteration *iteration, double *residual)
+{
+    const size_t count = iteration->body->nodes * (size_t)iteration->body->dimension;
+    const double target = TARGET * vector_length(residual, count);
+    if (iteration->body->is_symmetric) {
+        const struct conjugate_problem problem = {iteration, apply, precondition, count};
+        const struct conjugate_result result = conjugate_solve(&problem, &iteration->conjugate, iteration->solution, residual, target, MOST_ITERATIONS);
+        iteration->iterations = result.iterations;
+        return result.ending == CONJUGATE_FOUND;
+    }
+    const struct bicgstab_problem problem = {iteration, apply, precondition_unsymmetric, count};
+    const struct bicgstab_result result = bicgstab_solve(&problem, &iteration->bicgstab, iteration->solution, residual, MOST_ITERATIONS);
+    iteration->iterations = result.iterations;
+    return result.residual <= target;
 }
 
 bool iteration_solve(struct iteration *iteration, const double *right, const double *given, double *coefficients)
 {
     const struct body *body = iteration->body;
     const size_t count = body->nodes * (size_t)body->dimension;
-    const struct conjugate_problem problem = {iteration, apply, precondition, count};
     double *residual = iteration->residual, *particular = iteration->image;
     memcpy(residual, right, count * sizeof *residual);
     if (body->held.rows > 0) {
@@ -212,11 +212,10 @@ bool iteration_solve(struct iteration *iteration, const double *right, const dou
         vector_add(residual, -1, iteration->whole, count);
         condense(iteration, residual);
     }
-    const double target = TARGET * vector_length(residual, count);
-    const struct conjugate_result result = conjugate_solve(&problem, &iteration->room, iteration->solution, residual, target, MOST_ITERATIONS);
-    iteration->iterations = result.iterations;
+    if (!iterate(iteration, residual))
+        return false;
     memcpy(coefficients, iteration->solution, count * sizeof *coefficients);
     if (body->held.rows > 0)
         complete(iteration, given, coefficients);
-    return result.ending == CONJUGATE_FOUND;
+    return true;
 }

@@ -49,8 +49,8 @@ static enum solver_kind choose_kind(const struct solver *solver, double most_wor
     const struct body *body = solver->body;
     const double work = (double)solver->count * solver->width * solver->width;
     const bool is_half = body->is_symmetric && body->held.rows == 0;
-    if (body->is_symmetric && body->constraint != CONSTRAINT_LAGRANGE && work * (is_half ? 1 : 4) > most_work)
-        return SOLVER_CONJUGATE;
+    if (body->constraint != CONSTRAINT_LAGRANGE && work * (is_half ? 1 : 4) > most_work)
+        return body->is_symmetric ? SOLVER_CONJUGATE : SOLVER_BICGSTAB;
     return is_half ? SOLVER_ENVELOPE : SOLVER_BANDED;
 }
 
@@ -67,11 +67,22 @@ void solver_open(struct solver *solver, const struct body *body, double most_wor
     solver->kind = choose_kind(solver, most_work);
     solver->unknown = memory_array((size_t)solver->count, sizeof(double), "the linear system");
     solver->bytes = (double)solver->count * sizeof(double) * (solver->kind == SOLVER_ENVELOPE ? solver->width + 1.0 : 3.0 * solver->width + 1);
-    if (solver->kind != SOLVER_CONJUGATE)
+    solver->unknowns = solver->count;
+    if (!solver_iterates(solver))
         return;
-    solver->count = (int32_t)body->nodes * body->dimension;
+    solver->unknowns = (int32_t)body->nodes * body->dimension;
     solver->bytes = (double)body->matrix.first[body->nodes] * body->dimension * body->dimension * sizeof(double);
     iteration_open(&solver->iteration, body);
+}
+
+/* Where an iteration does not get there elimination does, in its time. */
+static bool eliminate_instead(struct solver *solver)
+{
+    iteration_close(&solver->iteration);
+    solver->iteration = (struct iteration){0};
+    solver->has_given_up = true;
+    solver->kind = SOLVER_BANDED;
+    return solver_factor(solver);
 }
 
 void solver_close(struct solver *solver)
@@ -134,8 +145,12 @@ static double largest_of(const struct sparse *matrix)
 
 bool solver_factor(struct solver *solver)
 {
+    if (solver_iterates(solver) && iteration_factor(&solver->iteration))
+        return true;
     if (solver->kind == SOLVER_CONJUGATE)
-        return iteration_factor(&solver->iteration);
+        return false;
+    if (solver->kind == SOLVER_BICGSTAB)
+        return eliminate_instead(solver);
     if (solver->kind == SOLVER_BANDED) {
         solver->scale = largest_of(&solver->body->matrix);
         fill_banded(solver);
@@ -155,8 +170,10 @@ bool solver_solve(struct solver *solver, const double *right, const double *give
 {
     const struct body *body = solver->body;
     const int d = body->dimension;
-    if (solver->kind == SOLVER_CONJUGATE)
-        return iteration_solve(&solver->iteration, right, given, coefficients);
+    if (solver_iterates(solver) && iteration_solve(&solver->iteration, right, given, coefficients))
+        return true;
+    if (solver->kind == SOLVER_CONJUGATE || (solver->kind == SOLVER_BICGSTAB && !eliminate_instead(solver)))
+        return false;
     for (size_t row = 0; row < body->nodes; row++)
         memcpy(solver->unknown + solver->of_row[row], right + row * (size_t)d, (size_t)d * sizeof(double));
     for (int32_t row = 0; row < body->held.rows; row++)

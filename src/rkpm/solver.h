@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solves the linear systems of bodies: directly, by an envelope or a band, or by conjugate gradients where that takes less. */
+/* Solves the linear systems of bodies: directly, by an envelope or a band, or by an iteration where that takes less. */
 #ifndef RKPM_SOLVER_H
 #define RKPM_SOLVER_H
 
@@ -7,7 +7,7 @@
 #include "base/envelope.h"
 #include "rkpm/iteration.h"
 
-enum solver_kind { SOLVER_ENVELOPE, SOLVER_BANDED, SOLVER_CONJUGATE };
+enum solver_kind { SOLVER_ENVELOPE, SOLVER_BANDED, SOLVER_CONJUGATE, SOLVER_BICGSTAB };
 
 struct solver {
     enum solver_kind kind;
@@ -21,12 +21,19 @@ struct solver {
     struct banded banded;
     struct iteration iteration;
     double *unknown;
+    int32_t unknowns;    /* an iteration has none for multipliers */
+    bool has_given_up;   /* an iteration did not get there: eliminated since */
     double bytes;
 };
 
-/* Multiplications that a direct solution may take; conjugate gradients, which need a symmetric matrix and no multipliers of
- * hats, take over above. */
+/* Multiplications that a direct solution may take; above iterations take over, which need a matrix without multipliers of hats:
+ * conjugate gradients, or stabilised biconjugate ones where it is not symmetric. Where those fail it is eliminated all the same. */
 static const double SOLVER_MOST_WORK = 2e9;
+
+static inline bool solver_iterates(const struct solver *solver)
+{
+    return solver->kind == SOLVER_CONJUGATE || solver->kind == SOLVER_BICGSTAB;
+}
 
 /* Makes room for systems of a body. */
 void solver_open(struct solver *solver, const struct body *body, double most_work);

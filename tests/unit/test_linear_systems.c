@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The solvers of base/: against matrices whose solutions are known. */
+#include "base/bicgstab.h"
 #include "base/conjugate.h"
 #include "base/envelope.h"
+#include "base/incomplete.h"
+#include "base/memory.h"
 #include "base/symmetric.h"
 #include "base/vector.h"
 #include "check.h"
@@ -88,6 +91,120 @@ static void test_conjugate(void)
     conjugate_close(&room);
 }
 
+/* --- not symmetric: diffusion of vectors that turn and are carried along --- */
+
+enum { BLOCK = 2, UNKNOWNS = BLOCK * COUNT };
+
+/* Nodes of the grid that are not farther apart than `reach` share a block; all are there with a reach of the grid. */
+static void open_carried(struct sparse *matrix, int reach)
+{
+    int32_t blocks[COUNT] = {0};
+    for (int i = 0; i < COUNT; i++)
+        for (int j = 0; j < COUNT; j++)
+            blocks[i] += abs(i % GRID - j % GRID) + abs(i / GRID - j / GRID) <= reach;
+    sparse_open(matrix, COUNT, BLOCK, blocks);
+    size_t k = 0;
+    for (int i = 0; i < COUNT; i++)
+        for (int j = 0; j < COUNT; j++) {
+            if (abs(i % GRID - j % GRID) + abs(i / GRID - j / GRID) > reach)
+                continue;
+            const double spread = laplace(i, j, true), carried = i - j == 1 ? -0.7 : j - i == 1 ? 0.4 : 0, turn = i == j ? 0.5 : 0;
+            matrix->column[k] = j;
+            memcpy(matrix->value + 4 * k++, (const double[]){spread + carried, turn, -turn, 2 * spread + carried}, 4 * sizeof(double));
+        }
+}
+
+struct carried {
+    struct sparse matrix;
+    struct incomplete factors;
+};
+
+static void apply_carried(void *context, const double *x, double *y)
+{
+    sparse_multiply(&((struct carried *)context)->matrix, x, y);
+}
+
+static void precondition_carried(void *context, const double *r, double *z)
+{
+    incomplete_solve(&((struct carried *)context)->factors, r, z);
+}
+
+static void keep(void *context, const double *r, double *z)
+{
+    (void)context;
+    memcpy(z, r, UNKNOWNS * sizeof *z);
+}
+
+/* Factors that leave nothing out are those of elimination; rows left out are those of the unit matrix. */
+static void test_incomplete(void)
+{
+    struct carried carried;
+    double wanted[UNKNOWNS], x[UNKNOWNS], worst = 0;
+    bool left_out[COUNT] = {false};
+    open_carried(&carried.matrix, 2 * GRID);
+    incomplete_open(&carried.factors, &carried.matrix);
+    for (int i = 0; i < UNKNOWNS; i++)
+        wanted[i] = sin(0.7 * i) + 0.01 * i;
+    check_true("pivots stay positive", incomplete_factor(&carried.factors, NULL));
+    apply_carried(&carried, wanted, x);
+    incomplete_solve(&carried.factors, x, x);
+    for (int i = 0; i < UNKNOWNS; i++)
+        worst = fmax(worst, fabs(x[i] - wanted[i]));
+    check_near("with all blocks incomplete factors are complete", worst, 0, 1e-12);
+    left_out[3] = left_out[40] = true;
+    check_true("and without two rows", incomplete_factor(&carried.factors, left_out));
+    wanted[6] = wanted[7] = wanted[80] = wanted[81] = 0;
+    apply_carried(&carried, wanted, x);
+    memcpy(x + 6, (const double[]){5, 6}, 2 * sizeof *x);
+    memcpy(x + 80, (const double[]){7, 8}, 2 * sizeof *x);
+    incomplete_solve(&carried.factors, x, x);
+    check_true("rows that are left out keep their right side", x[6] == 5 && x[7] == 6 && x[80] == 7 && x[81] == 8);
+    worst = 0;
+    for (int i = 0; i < UNKNOWNS; i++)
+        worst = fmax(worst, i / 2 == 3 || i / 2 == 40 ? 0 : fabs(x[i] - wanted[i]));
+    check_near("and have no part in the others", worst, 0, 1e-12);
+    sparse_block(&carried.matrix, 5, 5)[0] = -1;
+    check_true("a negative pivot is refused", !incomplete_factor(&carried.factors, NULL));
+    incomplete_close(&carried.factors);
+    sparse_close(&carried.matrix);
+}
+
+static void test_bicgstab(void)
+{
+    struct carried carried;
+    struct bicgstab_room room = {0};
+    double wanted[UNKNOWNS], right[UNKNOWNS], x[UNKNOWNS], worst;
+    long iterations[2];
+    open_carried(&carried.matrix, 1);
+    incomplete_open(&carried.factors, &carried.matrix);
+    incomplete_factor(&carried.factors, NULL);
+    for (int i = 0; i < UNKNOWNS; i++)
+        wanted[i] = sin(0.7 * i) + 0.01 * i;
+    for (int run = 0; run < 2; run++) {
+        const struct bicgstab_problem problem = {&carried, apply_carried, run == 0 ? keep : precondition_carried, UNKNOWNS};
+        apply_carried(&carried, wanted, right);
+        const double size = vector_length(right, UNKNOWNS);
+        const struct bicgstab_result result = bicgstab_solve(&problem, &room, x, right, 1000);
+        worst = 0;
+        for (int i = 0; i < UNKNOWNS; i++)
+            worst = fmax(worst, fabs(x[i] - wanted[i]));
+        check_near("stabilised biconjugate gradients: solution", worst, 0, 1e-12);
+        check_near("residual, to round-off", result.residual / size, 0, 1e-14);
+        check_true("which is what is left of the right side", result.residual == vector_length(right, UNKNOWNS));
+        iterations[run] = result.iterations;
+    }
+    check_true("incomplete factors make them fewer than half", 2 * iterations[1] < iterations[0]);
+    const struct bicgstab_problem problem = {&carried, apply_carried, keep, UNKNOWNS};
+    apply_carried(&carried, wanted, right);
+    check_true("no more iterations than allowed", bicgstab_solve(&problem, &room, x, right, 3).iterations <= 3);
+    memset(right, 0, sizeof right);
+    const struct bicgstab_result nothing = bicgstab_solve(&problem, &room, x, right, 1000);
+    check_true("a right side of zeros needs none", nothing.iterations == 0 && x[0] == 0);
+    bicgstab_close(&room);
+    incomplete_close(&carried.factors);
+    sparse_close(&carried.matrix);
+}
+
 static void factor_laplace(struct envelope *envelope, bool held)
 {
     int32_t first[COUNT];
@@ -165,6 +282,8 @@ int main(void)
 {
     test_vectors();
     test_conjugate();
+    test_incomplete();
+    test_bicgstab();
     test_envelope();
     test_symmetric();
     return check_result();
