@@ -17,8 +17,9 @@ enum { AXES = 3, TERMS = 1 + AXES, LANES = 4 };
  * shape functions at two points. */
 struct nodal_scratch {
     double *room;
+    int32_t *list;     /* of neighbours; it and their places have room for one more */
     double *place[AXES], *xi[AXES], *kernel, *slope[AXES], *value[2];
-    size_t capacity;
+    size_t capacity, list_capacity;
     int most; /* neighbours of a node that had no room */
 };
 
@@ -29,51 +30,53 @@ struct polynomials {
     double slope[AXES][TERMS][TERMS]; /* sum H H^T Phi_,j, the lower half */
 };
 
-/* Offsets, kernels and, where they are wanted, slopes; zeros behind them, up to a whole number of lanes. */
+/* Offsets, kernels and, where they are wanted, slopes. */
 THREADS_INLINE void set_kernels_of(const enum kernel_form form, const struct nodal *nodal, const double point[AXES], double reach, int n,
-                                   bool wants_slopes, struct nodal_scratch *scratch, const int d)
+                                   const bool wants_slopes, struct nodal_scratch *scratch, const int d)
 {
-    double *restrict kernel = scratch->kernel;
-    for (int k = 0; k < n; k++)
-        kernel[k] = 1;
+    double over_scale[AXES], over_radius[AXES];
     for (int a = 0; a < d; a++) {
-        const double *restrict place = scratch->place[a];
-        double *restrict xi = scratch->xi[a];
-        const double radius = nodal->support.radius[a] * reach, scale = nodal->support.radius[a];
-        for (int k = 0; k < n; k++) {
-            xi[k] = (point[a] - place[k]) / scale;
-            kernel[k] *= rkpm_kernel(form, fabs(point[a] - place[k]) / radius);
+        over_scale[a] = 1 / nodal->support.radius[a];
+        over_radius[a] = 1 / (nodal->support.radius[a] * reach);
+    }
+#pragma omp simd
+    for (int k = 0; k < n; k++) {
+        double phi[AXES], slope[AXES], kernel = 1;
+        for (int a = 0; a < d; a++) {
+            const double offset = point[a] - scratch->place[a][k], z = fabs(offset) * over_radius[a];
+            scratch->xi[a][k] = offset * over_scale[a];
+            phi[a] = rkpm_kernel(form, z);
+            slope[a] = wants_slopes ? rkpm_kernel_slope(form, z) * (offset < 0 ? -over_radius[a] : over_radius[a]) : 0;
+            kernel *= phi[a];
         }
-    }
-    for (int k = 0; k < n; k++)
-        kernel[k] = kernel[k] > MOMENTS_LEAST_KERNEL ? kernel[k] : 0;
-    for (int k = n; k % LANES != 0; k++) {
-        kernel[k] = 0;
-        for (int a = 0; a < d; a++)
-            scratch->xi[a][k] = scratch->slope[a][k] = 0;
-    }
-    for (int a = 0; a < d && wants_slopes; a++) {
-        const double *restrict place = scratch->place[a];
-        double *restrict slope = scratch->slope[a];
-        const double radius = nodal->support.radius[a] * reach;
-        for (int k = 0; k < n; k++) {
-            const double offset = point[a] - place[k], z = fabs(offset) / radius, along = rkpm_kernel_slope(form, z) / radius;
-            const double others = kernel[k] > 0 ? kernel[k] / rkpm_kernel(form, z) : 0;
-            slope[k] = (offset < 0 ? -along : along) * others;
+        const bool is_in = kernel > MOMENTS_LEAST_KERNEL;
+        scratch->kernel[k] = is_in ? kernel : 0;
+        for (int a = 0; a < d && wants_slopes; a++) {
+            for (int b = 0; b < d; b++)
+                slope[a] *= b == a ? 1 : phi[b];
+            scratch->slope[a][k] = is_in ? slope[a] : 0;
         }
     }
 }
 
-/* The form is a constant of each loop. */
+/* The same, with zeros behind them up to a whole number of lanes. The form, and whether slopes are wanted, are constants of each loop. */
 THREADS_INLINE void set_kernels(const struct nodal *nodal, const double point[AXES], double reach, int n, bool wants_slopes,
                                 struct nodal_scratch *scratch, const int d)
 {
-    if (nodal->support.kernel == KERNEL_CUBIC)
-        set_kernels_of(KERNEL_CUBIC, nodal, point, reach, n, wants_slopes, scratch, d);
-    else if (nodal->support.kernel == KERNEL_QUINTIC)
-        set_kernels_of(KERNEL_QUINTIC, nodal, point, reach, n, wants_slopes, scratch, d);
+    const enum kernel_form form = nodal->support.kernel;
+    for (int k = n; k % LANES != 0; k++) {
+        scratch->kernel[k] = 0;
+        for (int a = 0; a < d; a++)
+            scratch->xi[a][k] = scratch->slope[a][k] = 0;
+    }
+    if (form == KERNEL_CUBIC && wants_slopes)
+        set_kernels_of(KERNEL_CUBIC, nodal, point, reach, n, true, scratch, d);
+    else if (form == KERNEL_CUBIC)
+        set_kernels_of(KERNEL_CUBIC, nodal, point, reach, n, false, scratch, d);
+    else if (form == KERNEL_QUINTIC)
+        set_kernels_of(KERNEL_QUINTIC, nodal, point, reach, n, true, scratch, d);
     else
-        set_kernels_of(KERNEL_EXPONENTIAL, nodal, point, reach, n, wants_slopes, scratch, d);
+        set_kernels_of(KERNEL_EXPONENTIAL, nodal, point, reach, n, true, scratch, d);
 }
 
 /* sum a b w in LANES partial sums, the same for every processor. */
@@ -120,13 +123,12 @@ THREADS_INLINE bool factor_moments(const struct nodal_scratch *scratch, int n, s
 {
     struct moments *moments = &polynomials->moments;
     int near = 0;
-    moments->count = d + 1;
     sum_moments(scratch, scratch->kernel, n, &moments->a[0][0], BASIS_LARGEST, d);
     for (int i = 0; i <= d; i++)
         polynomials->first[i] = moments->a[i][0];
     for (int k = 0; k < n; k++)
         near += scratch->kernel[k] > 0;
-    return near > d && moments_factor(moments);
+    return near > d && moments_factor(moments, d + 1);
 }
 
 /* (b . H) Phi of all neighbours, b = M^-1 right. */
@@ -142,12 +144,12 @@ THREADS_INLINE void apply_polynomial(const struct nodal_scratch *scratch, int n,
 }
 
 /* b = M^-1 H(0) of the values (3.5); with an axis M^-1 H^(i), H^(i) = -e_i/s, of the implicit gradient. */
-THREADS_INLINE void solve_polynomial(const struct nodal *nodal, const struct polynomials *polynomials, int axis, double b[TERMS])
+THREADS_INLINE void solve_polynomial(const struct nodal *nodal, const struct polynomials *polynomials, int axis, double b[TERMS], const int d)
 {
     for (int i = 0; i < TERMS; i++)
         b[i] = 0;
     b[axis < 0 ? 0 : 1 + axis] = axis < 0 ? 1 : -1 / nodal->support.radius[axis];
-    moments_solve(&polynomials->moments, b);
+    moments_solve(&polynomials->moments, b, d + 1);
 }
 
 /* The derivative along an axis of (b . H) Phi, b' = -M^-1 M' b; H' = e/s, so M' = sum H H^T Phi' + (e M_0^T + M_0 e^T)/s. */
@@ -163,7 +165,7 @@ THREADS_INLINE void apply_derivative(const struct nodal *nodal, const struct nod
         along += polynomials->first[i] * b[i];
     }
     change[1 + axis] -= along / scale;
-    moments_solve(&polynomials->moments, change);
+    moments_solve(&polynomials->moments, change, d + 1);
     change[0] += b[1 + axis] / scale;
     const double *restrict kernel = scratch->kernel, *restrict slope = scratch->slope[axis];
     for (int k = 0; k < n; k++) {
@@ -182,7 +184,7 @@ THREADS_INLINE bool find_values(const struct nodal *nodal, const struct nodal_sc
 {
     double b[TERMS], sum = 0;
     if (factor_moments(scratch, n, polynomials, d)) {
-        solve_polynomial(nodal, polynomials, -1, b);
+        solve_polynomial(nodal, polynomials, -1, b, d);
         apply_polynomial(scratch, n, b, result, d);
         return true;
     }

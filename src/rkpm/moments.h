@@ -6,7 +6,7 @@
 #include "base/threads.h"
 #include "rkpm/basis.h"
 
-#include <math.h>
+#include <stdbool.h>
 
 /* Its lower half; factored: L below the diagonal, D on it. */
 struct moments {
@@ -20,13 +20,12 @@ static const double MOMENTS_LEAST_KERNEL = 1e-14, MOMENTS_LEAST_PIVOT = 1e-7;
 static const double MOMENTS_ENLARGEMENT = 1.2;
 enum { MOMENTS_ENLARGEMENTS = 3 };
 
-/* Factors in place; false where a pivot is too small. */
-THREADS_INLINE bool moments_factor(struct moments *moments)
+/* Factors that of n monomials in place; false where a pivot is too small. Where n is a constant loops are unrolled. */
+THREADS_INLINE bool moments_factor(struct moments *moments, const int n)
 {
-    const int n = moments->count;
     double largest = 0;
     for (int i = 0; i < n; i++)
-        largest = fmax(largest, moments->a[i][i]);
+        largest = moments->a[i][i] > largest ? moments->a[i][i] : largest;
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < i; j++)
             for (int k = 0; k < j; k++)
@@ -43,9 +42,8 @@ THREADS_INLINE bool moments_factor(struct moments *moments)
 }
 
 /* Replaces a right side by the solution. */
-THREADS_INLINE void moments_solve(const struct moments *moments, double *x)
+THREADS_INLINE void moments_solve(const struct moments *moments, double *x, const int n)
 {
-    const int n = moments->count;
     for (int i = 0; i < n; i++)
         for (int j = 0; j < i; j++)
             x[i] -= moments->a[i][j] * x[j];

@@ -12,48 +12,53 @@ enum { FEW_NODES = 200, SCRATCH_ARRAYS = 3 * AXES + 3 }; /* below these nodes on
 
 /* --- neighbours --- */
 
-/* Nodes whose support reaches a node, or, farther along one axis, the box around it, or, along any, its cell; only as many as
- * there is room for. */
-THREADS_INLINE int find_neighbours(struct nodal *nodal, size_t node, double slack, const int d)
+/* How near nodes have to be to count as neighbours: within the outer box, and outside of the inner one along so many axes at most. */
+struct nearness {
+    double middle[AXES], inner[AXES], outer[AXES];
+    int most_outside;
+};
+
+/* Takes the near ones of sorted nodes from `first` to before `last`, behind the n that there are. Those beyond the room are only counted. */
+THREADS_INLINE int take_near(const struct nodal *nodal, const struct nearness *near, int32_t first, int32_t last, int n, struct nodal_scratch *scratch,
+                             const int d)
 {
-    const int most_outside = slack == 0 ? 0 : nodal->cells ? d : 1;
-    const struct search *search = &nodal->search;
-    int32_t *list = nodal->neighbour + node * (size_t)nodal->stride;
-    double middle[AXES] = {0}, inner[AXES], outer[AXES], far = 0;
-    int from[3], to[3], cell[3], n = 0;
-    for (int a = 0; a < d; a++) {
-        middle[a] = nodal->x[a][node];
-        inner[a] = nodal->support.radius[a] * nodal->reach[node];
-        outer[a] = inner[a] + slack;
-        far = fmax(far, outer[a] / search->size[a]);
+    for (int32_t k = first; k < last; k++) {
+        const int to = n < nodal->stride ? n : nodal->stride;
+        int outside = 0;
+        for (int a = 0; a < d; a++) {
+            const double place = nodal->search.place[a][k], distance = fabs(place - near->middle[a]);
+            outside += (distance >= near->inner[a]) + (AXES + 1) * (distance >= near->outer[a]);
+            scratch->place[a][to] = place;
+        }
+        scratch->list[to] = nodal->search.node[k];
+        n += outside <= near->most_outside;
     }
-    search_range(search, middle, far, from, to);
-    for (cell[2] = from[2]; cell[2] <= to[2]; cell[2]++)
-        for (cell[1] = from[1]; cell[1] <= to[1]; cell[1]++)
-            for (cell[0] = from[0]; cell[0] <= to[0]; cell[0]++) {
-                const size_t c = search_cell(search, cell);
-                for (int32_t k = search->first[c]; k < search->first[c + 1]; k++) {
-                    int outside = 0;
-                    for (int a = 0; a < d; a++) {
-                        const double distance = fabs(nodal->x[a][search->node[k]] - middle[a]);
-                        outside += distance >= outer[a] ? AXES + 1 : distance >= inner[a];
-                    }
-                    if (outside > most_outside)
-                        continue;
-                    if (n < nodal->stride)
-                        list[n] = search->node[k];
-                    n++;
-                }
-            }
     return n;
 }
 
-THREADS_INLINE void gather_places(const struct nodal *nodal, size_t node, struct nodal_scratch *scratch, const int d)
+/* Nodes whose support reaches a node, or, farther along one axis, the box around it, or, along any, its cell, with their places; returns
+ * how many there are. */
+THREADS_INLINE int find_neighbours(const struct nodal *nodal, size_t node, double slack, struct nodal_scratch *scratch, const int d)
 {
-    const int32_t *list = rkpm_nodal_neighbour(nodal, node);
-    for (int a = 0; a < d; a++)
-        for (int k = 0; k < nodal->neighbours[node]; k++)
-            scratch->place[a][k] = nodal->x[a][list[k]];
+    const struct search *search = &nodal->search;
+    struct nearness near = {.most_outside = slack == 0 ? 0 : nodal->cells ? d : 1};
+    double far = 0;
+    int from[3], to[3], cell[3], n = 0;
+    for (int a = 0; a < d; a++) {
+        near.middle[a] = nodal->x[a][node];
+        near.inner[a] = nodal->support.radius[a] * nodal->reach[node];
+        near.outer[a] = near.inner[a] + slack;
+        far = near.outer[a] > far * search->size[a] ? near.outer[a] / search->size[a] : far;
+    }
+    search_range(search, near.middle, far, from, to);
+    /* cells along the first axis follow each other */
+    cell[0] = from[0];
+    for (cell[2] = from[2]; cell[2] <= to[2]; cell[2]++)
+        for (cell[1] = from[1]; cell[1] <= to[1] && from[0] <= to[0]; cell[1]++) {
+            const size_t c = search_cell(search, cell);
+            n = take_near(nodal, &near, search->first[c], search->first[c + (size_t)(to[0] - from[0]) + 1], n, scratch, d);
+        }
+    return n;
 }
 
 /* --- rows of a node --- */
@@ -84,7 +89,7 @@ THREADS_INLINE void set_second_rows(const struct nodal *nodal, size_t node, int 
 {
     double b[TERMS];
     for (int a = 0; a < d; a++) {
-        solve_polynomial(nodal, polynomials, a, b);
+        solve_polynomial(nodal, polynomials, a, b, d);
         for (int row = 1; row < nodal->rows; row++)
             apply_derivative(nodal, scratch, n, polynomials, b, row - 1, row_of(nodal, node, row, a), d);
     }
@@ -118,7 +123,7 @@ THREADS_INLINE bool set_rows_at_node(const struct nodal *nodal, size_t node, int
     for (int a = 0; a < d && (is_direct || has_second); a++)
         sum_moments(scratch, scratch->slope[a], n, &polynomials.slope[a][0][0], TERMS, d);
     for (int a = 0; a < d && !nodal->cells; a++) {
-        solve_polynomial(nodal, &polynomials, is_direct ? -1 : a, b);
+        solve_polynomial(nodal, &polynomials, is_direct ? -1 : a, b, d);
         if (is_direct)
             apply_derivative(nodal, scratch, n, &polynomials, b, a, row_of(nodal, node, 0, a), d);
         else
@@ -226,13 +231,13 @@ THREADS_INLINE bool set_rows(const struct nodal *nodal, size_t node, int n, stru
 
 THREADS_INLINE void set_node(struct nodal *nodal, size_t node, struct nodal_scratch *scratch, const int d)
 {
-    const int n = find_neighbours(nodal, node, reach_of_rows(nodal, node, d), d);
+    const int n = find_neighbours(nodal, node, reach_of_rows(nodal, node, d), scratch, d);
     nodal->neighbours[node] = n;
     if (n > nodal->stride) {
         scratch->most = n > scratch->most ? n : scratch->most;
         return;
     }
-    gather_places(nodal, node, scratch, d);
+    memcpy(nodal->neighbour + node * (size_t)nodal->stride, scratch->list, (size_t)n * sizeof *scratch->list);
     set_weights(nodal, node, d);
     nodal->is_lowered[node] = !set_rows(nodal, node, n, scratch, d);
     for (int row = 0; row < nodal->rows && nodal->is_lowered[node]; row++)
@@ -262,8 +267,9 @@ static void set_node_3(struct nodal *nodal, size_t node, struct nodal_scratch *s
 
 static void open_scratch(struct nodal_scratch *scratch, int stride)
 {
-    const size_t size = (size_t)stride;
+    const size_t size = (size_t)stride + LANES;
     scratch->most = 0;
+    scratch->list = memory_grow(scratch->list, &scratch->list_capacity, size, sizeof *scratch->list, "rows of nodes");
     scratch->room = memory_grow(scratch->room, &scratch->capacity, SCRATCH_ARRAYS * size, sizeof(double), "rows of nodes");
     double *next = scratch->room;
     for (int a = 0; a < AXES; a++, next += 3 * size) {
@@ -300,6 +306,15 @@ static void make_room(struct nodal *nodal, int stride)
         open_scratch(&nodal->scratch[i], stride);
 }
 
+/* Cells of half a support: those around a node have few nodes that are no neighbours. */
+static void sort_nodes(struct nodal *nodal)
+{
+    double size[3];
+    for (int a = 0; a < 3; a++)
+        size[a] = 0.5 * nodal->support.radius[a];
+    search_renew(&nodal->search, nodal->count, nodal->x, size);
+}
+
 /* --- all nodes --- */
 
 /* The most neighbours of a node; rows are only there where all had room. */
@@ -331,7 +346,7 @@ static bool enlarge(struct nodal *nodal)
 
 void rkpm_nodal_renew(struct nodal *nodal)
 {
-    search_renew(&nodal->search, nodal->count, nodal->x, nodal->support.radius);
+    sort_nodes(nodal);
     for (size_t node = 0; node < nodal->count; node++)
         nodal->reach[node] = 1;
     for (int i = 0;; i++) {
@@ -350,11 +365,10 @@ void rkpm_nodal_renew(struct nodal *nodal)
 /* With what the caller has said. */
 static void open_rows(struct nodal *nodal)
 {
-    const size_t count = nodal->count;
     make_node_room(nodal);
     nodal->n_scratch = threads_available();
     nodal->scratch = memory_array((size_t)nodal->n_scratch, sizeof *nodal->scratch, "rows of nodes");
-    search_open(&nodal->search, nodal->dimension, count, nodal->x, nodal->support.radius);
+    nodal->search.dimension = nodal->dimension;
     make_room(nodal, 8);
     rkpm_nodal_renew(nodal);
 }
@@ -392,8 +406,10 @@ void rkpm_nodal_open_cells(struct nodal *nodal, enum integration_form rule, cons
 void rkpm_nodal_close(struct nodal *nodal)
 {
     search_close(&nodal->search);
-    for (int i = 0; i < nodal->n_scratch; i++)
+    for (int i = 0; i < nodal->n_scratch; i++) {
         memory_free(nodal->scratch[i].room);
+        memory_free(nodal->scratch[i].list);
+    }
     memory_free(nodal->scratch);
     memory_free(nodal->neighbours);
     memory_free(nodal->neighbour);

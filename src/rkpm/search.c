@@ -59,6 +59,11 @@ static void sort_nodes(struct search *search, size_t count, double *const x[3])
     for (size_t c = 0; c < cells; c++)
         search->first[c] = search->first[c + 1];
     search->first[cells] = (int32_t)count;
+    for (int a = 0; a < search->dimension; a++) {
+        search->place[a] = memory_grow(search->place[a], &search->place_capacity[a], count, sizeof(double), "cells of nodes");
+        for (size_t k = 0; k < count; k++)
+            search->place[a][k] = x[a][search->node[k]];
+    }
 }
 
 void search_open(struct search *search, int dimension, size_t count, double *const x[3], const double size[3])
@@ -77,6 +82,8 @@ void search_close(struct search *search)
 {
     memory_free(search->first);
     memory_free(search->node);
+    for (int a = 0; a < 3; a++)
+        memory_free(search->place[a]);
 }
 
 void search_range(const struct search *search, const double point[3], double reach, int from[3], int to[3])

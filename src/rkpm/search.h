@@ -12,14 +12,15 @@ struct search {
     int cells[3];
     int32_t *first;         /* per cell: place of its first node in `node`; one more at the end */
     int32_t *node;          /* by cells, in a cell by number */
-    size_t first_capacity, node_capacity;
+    double *place[3];       /* of nodes in that order */
+    size_t first_capacity, node_capacity, place_capacity[3];
 };
 
 /* Cells of the given sides around nodes x[axis][node], which lie anywhere. */
 void search_open(struct search *search, int dimension, size_t count, double *const x[3], const double size[3]);
 void search_close(struct search *search);
 
-/* The same after nodes have moved. Room is kept from call to call, and grows only where the nodes need more cells. */
+/* The same after nodes have moved, or of a search that has only a dimension so far. Room is kept from call to call, and grows only where the nodes need more cells. */
 void search_renew(struct search *search, size_t count, double *const x[3], const double size[3]);
 
 /* The cells that reach nearer than `reach` cells' sides to a point: from[axis] to to[axis]; empty where to < from. */

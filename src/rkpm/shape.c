@@ -140,7 +140,7 @@ static void set_values(struct rkpm_shape *shape, const struct moments *moments, 
 {
     memset(b, 0, BASIS_LARGEST * sizeof *b);
     b[0] = 1;
-    moments_solve(moments, b);
+    moments_solve(moments, b, moments->count);
     for (int n = 0; n < shape->row.count; n++)
         shape->row.value[n] = product(moments->count, b, shape->monomials + (size_t)n * BASIS_LARGEST) * shape->kernel[n];
 }
@@ -161,7 +161,7 @@ static void direct_gradient(struct rkpm_shape *shape, const struct basis *basis,
             change[m] -= slope[m] * along_slope + h[m] * along_value;
         shape->row.gradient[axis][n] = along_value;
     }
-    moments_solve(moments, change);
+    moments_solve(moments, change, moments->count);
     for (int n = 0; n < shape->row.count; n++)
         shape->row.gradient[axis][n] += product(moments->count, change, shape->monomials + (size_t)n * BASIS_LARGEST) * shape->kernel[n];
 }
@@ -171,7 +171,7 @@ static void implicit_gradient(struct rkpm_shape *shape, const struct moments *mo
 {
     double b[BASIS_LARGEST] = {0};
     b[1 + axis] = -1 / shape->support.radius[axis];
-    moments_solve(moments, b);
+    moments_solve(moments, b, moments->count);
     for (int n = 0; n < shape->row.count; n++)
         shape->row.gradient[axis][n] = product(moments->count, b, shape->monomials + (size_t)n * BASIS_LARGEST) * shape->kernel[n];
 }
@@ -184,7 +184,7 @@ static const struct basis *find_basis(struct rkpm_shape *shape, const double poi
         for (int i = 0; i <= MOMENTS_ENLARGEMENTS; i++, shape->row.reach *= MOMENTS_ENLARGEMENT) {
             find_nodes(shape, point);
             sum_moments(shape, &shape->basis[level], point, moments);
-            if (shape->row.count >= moments->count && moments_factor(moments)) {
+            if (shape->row.count >= moments->count && moments_factor(moments, moments->count)) {
                 shape->row.order = level == shape->top ? rkpm_shape_order(shape->form) : level;
                 shape->enlarged += i > 0;
                 shape->lowered += level < shape->top;
