@@ -55,7 +55,8 @@ struct dynamic_pairs {
     int32_t *node;  /* whose row it is */
     int32_t *place; /* its place in the row */
     double *gradients; /* a copy of those in the rows, by pairs, rows, axes, where rows stay as they are; else NULL */
-    size_t capacity[2];
+    double *force;     /* where rows change: what each node gives to each of its neighbours, in the order of the rows, `lanes` each */
+    size_t capacity[3];
 };
 
 struct dynamic {

@@ -44,29 +44,84 @@ void rkpm_dynamic_pairs(struct dynamic *dynamic)
         }
     if (!dynamic->is_semi)
         copy_gradients(nodal, pairs, total);
+    else
+        pairs->force = memory_grow(pairs->force, &pairs->capacity[2], count * (size_t)nodal->stride * (size_t)dynamic_lanes(dynamic->dimension),
+                                   sizeof(double), "pairs of nodes");
 }
 
 /* --- forces --- */
 
-/* -sum over rows of load times row. */
-THREADS_INLINE void collect(const struct dynamic *dynamic, size_t coefficient, double force[3], const int d)
+/* What a node's rows, read one after another, give to each of its neighbours: -sum of load times row. */
+THREADS_INLINE void give(const struct dynamic *dynamic, size_t node, const int d)
+{
+    const struct nodal *nodal = &dynamic->nodal;
+    const size_t stride = (size_t)nodal->stride, count = (size_t)nodal->neighbours[node];
+    const int lanes = dynamic_lanes(d);
+    double *restrict force = dynamic->pairs.force + node * stride * (size_t)lanes;
+    memset(force, 0, count * (size_t)lanes * sizeof *force);
+    for (int r = 0; r < nodal->rows; r++) {
+        const double *restrict load = dynamic_load(dynamic, node, r, d), *restrict along[3];
+        for (int j = 0; j < d; j++)
+            along[j] = rkpm_nodal_gradient(nodal, node, r, j);
+        for (size_t k = 0; k < count; k++)
+            for (int j = 0; j < d; j++)
+                for (int i = 0; i < lanes; i++)
+                    force[k * (size_t)lanes + (size_t)i] -= load[j * lanes + i] * along[j][k];
+    }
+}
+
+THREADS_VECTORISED
+static void give_2(const struct dynamic *dynamic, size_t node)
+{
+    give(dynamic, node, 2);
+}
+
+THREADS_VECTORISED
+static void give_3(const struct dynamic *dynamic, size_t node)
+{
+    give(dynamic, node, 3);
+}
+
+/* The sum of what nodes give to a coefficient. */
+THREADS_INLINE void collect_given(const struct dynamic *dynamic, size_t coefficient, double force[3], const int d)
+{
+    const struct dynamic_pairs *pairs = &dynamic->pairs;
+    const size_t lanes = (size_t)dynamic_lanes(d), stride = (size_t)dynamic->nodal.stride;
+    double sum[DYNAMIC_MOST_LANES] = {0};
+    for (int32_t p = pairs->first[coefficient]; p < pairs->first[coefficient + 1]; p++) {
+        const double *restrict given = pairs->force + ((size_t)pairs->node[p] * stride + (size_t)pairs->place[p]) * lanes;
+        for (size_t i = 0; i < lanes; i++)
+            sum[i] += given[i];
+    }
+    memcpy(force, sum, 3 * sizeof *sum);
+}
+
+/* -sum over rows of load times row, from the copy of rows in the order of pairs. */
+THREADS_INLINE void collect_all(const struct dynamic *dynamic, size_t coefficient, double force[3], const int d)
 {
     const struct nodal *nodal = &dynamic->nodal;
     const struct dynamic_pairs *pairs = &dynamic->pairs;
-    const size_t rows = (size_t)nodal->rows, axes = (size_t)d, stride = pairs->gradients ? 1 : (size_t)nodal->stride;
+    const size_t rows = (size_t)nodal->rows, each = rows * (size_t)d;
     const int lanes = dynamic_lanes(d);
     double sum[DYNAMIC_MOST_LANES] = {0};
     for (int32_t p = pairs->first[coefficient]; p < pairs->first[coefficient + 1]; p++) {
         const size_t node = (size_t)pairs->node[p];
         const double *restrict load = dynamic_load(dynamic, node, 0, d);
-        const double *restrict row = pairs->gradients ? pairs->gradients + (size_t)p * rows * axes
-                                                      : nodal->gradients + node * rows * axes * stride + (size_t)pairs->place[p];
-        for (size_t r = 0; r < rows; r++, load += d * lanes, row += axes * stride)
+        const double *restrict row = pairs->gradients + (size_t)p * each;
+        for (size_t r = 0; r < rows; r++, load += d * lanes, row += d)
             for (int j = 0; j < d; j++)
                 for (int i = 0; i < lanes; i++)
-                    sum[i] -= load[j * lanes + i] * row[(size_t)j * stride];
+                    sum[i] -= load[j * lanes + i] * row[j];
     }
     memcpy(force, sum, 3 * sizeof *sum);
+}
+
+THREADS_INLINE void collect(const struct dynamic *dynamic, size_t coefficient, double force[3], const int d)
+{
+    if (dynamic->is_semi)
+        collect_given(dynamic, coefficient, force, d);
+    else
+        collect_all(dynamic, coefficient, force, d);
 }
 
 THREADS_VECTORISED
@@ -86,6 +141,9 @@ void rkpm_dynamic_forces(struct dynamic *dynamic)
     const double *gravity = dynamic->words->dynamic.gravity;
     const int axis = dynamic->words->dynamic.wall_axis;
     rkpm_dynamic_wall(dynamic);
+#pragma omp parallel for schedule(static) if (dynamic->nodes >= DYNAMIC_FEW_NODES)
+    for (size_t n = 0; n < (dynamic->is_semi ? dynamic->nodes : 0); n++)
+        (dynamic->dimension == 2 ? give_2 : give_3)(dynamic, n);
 #pragma omp parallel for schedule(static) if (dynamic->nodes >= DYNAMIC_FEW_NODES)
     for (size_t n = 0; n < dynamic->nodes; n++) {
         double force[3] = {0};

@@ -218,6 +218,7 @@ void rkpm_dynamic_close(struct dynamic *dynamic)
     memory_free(dynamic->pairs.node);
     memory_free(dynamic->pairs.place);
     memory_free(dynamic->pairs.gradients);
+    memory_free(dynamic->pairs.force);
     store_close(dynamic->store);
     memory_free(dynamic);
 }
