@@ -16,7 +16,7 @@ static void print_box(const struct rkpm *rkpm, const struct rkpm_level *level, F
                                              [SOLVER_BICGSTAB] = ", solved by stabilised biconjugate gradients"};
     const struct solver *solver = rkpm->words->problem == PROBLEM_CREEP ? rkpm->creep.solver : &level->solver;
     if (rkpm->words->problem != PROBLEM_APPROXIMATION)
-        fprintf(stream, "; %d unknowns, matrix of %.0f bytes at most%s", has_body ? solver->unknowns : level->system.count,
+        fprintf(stream, "; %d unknowns, matrix of %.0f bytes at most%s", has_body ? solver_unknowns(solver) : level->system.count,
                 has_body ? solver->bytes : level->system.bytes, has_body && solver_iterates(solver) ? iterations[solver->kind] : "");
     fprintf(stream, "\n");
 }

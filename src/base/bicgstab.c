@@ -22,11 +22,12 @@ static const double LEAST_PRODUCT = 1e-14;
 
 enum { STAGNANT = 200 }; /* iterations of a cycle without a smaller residual */
 
-enum vector { SHADOW, DIRECTION, IMAGE, PRECONDITIONED, STABILISER, CORRECTION, BEST, CARRIED, VECTORS };
+enum vector { SHADOW, DIRECTION, IMAGE, PRECONDITIONED, STABILISER, CORRECTION, BEST, CARRIED };
+_Static_assert(CARRIED + 1 == BICGSTAB_VECTORS, "as many as there is room for");
 
 void bicgstab_close(struct bicgstab_room *room)
 {
-    for (int i = 0; i < VECTORS; i++)
+    for (int i = 0; i < BICGSTAB_VECTORS; i++)
         memory_free(room->vector[i]);
 }
 
@@ -35,6 +36,7 @@ struct cycle {
     const struct bicgstab_problem *problem;
     double *const *vector;
     double product, step, damping; /* shadow . residual, alpha, omega */
+    double shadow, carried;        /* lengths */
 };
 
 static bool is_small(double product, double a, double b)
@@ -48,15 +50,15 @@ static bool step_along(struct cycle *cycle)
     const struct bicgstab_problem *problem = cycle->problem;
     const size_t count = problem->count;
     double *const *v = cycle->vector;
-    const double product = vector_dot(v[SHADOW], v[CARRIED], count), shadow = vector_length(v[SHADOW], count);
-    if (is_small(product, shadow, vector_length(v[CARRIED], count)))
+    const double product = vector_dot(v[SHADOW], v[CARRIED], count);
+    if (is_small(product, cycle->shadow, cycle->carried))
         return false;
     vector_add(v[DIRECTION], -cycle->damping, v[IMAGE], count);
     vector_renew(v[DIRECTION], v[CARRIED], product / cycle->product * cycle->step / cycle->damping, count);
     problem->precondition(problem->context, v[DIRECTION], v[PRECONDITIONED]);
     problem->apply(problem->context, v[PRECONDITIONED], v[IMAGE]);
     const double along = vector_dot(v[SHADOW], v[IMAGE], count);
-    if (is_small(along, shadow, vector_length(v[IMAGE], count)))
+    if (is_small(along, cycle->shadow, vector_length(v[IMAGE], count)))
         return false;
     cycle->product = product;
     cycle->step = product / along;
@@ -86,7 +88,7 @@ static bool stabilise(struct cycle *cycle)
 static long run_cycle(const struct bicgstab_problem *problem, double *const *v, const double *residual, double length, long most)
 {
     const size_t bytes = problem->count * sizeof(double);
-    struct cycle cycle = {problem, v, 1, 1, 1};
+    struct cycle cycle = {problem, v, 1, 1, 1, length, length};
     double lowest = length;
     long iterations = 0, since = 0;
     memcpy(v[SHADOW], residual, bytes);
@@ -98,11 +100,11 @@ static long run_cycle(const struct bicgstab_problem *problem, double *const *v, 
     bool goes_on = true;
     while (goes_on && lowest > REDUCTION * length && since < STAGNANT && iterations < most) {
         goes_on = step_along(&cycle) && stabilise(&cycle);
-        const double now = vector_length(v[CARRIED], problem->count);
+        cycle.carried = vector_length(v[CARRIED], problem->count);
         iterations++;
         since++;
-        if (now < lowest) {
-            lowest = now;
+        if (cycle.carried < lowest) {
+            lowest = cycle.carried;
             since = 0;
             memcpy(v[BEST], v[CORRECTION], bytes);
         }
@@ -115,7 +117,7 @@ struct bicgstab_result bicgstab_solve(const struct bicgstab_problem *problem, st
     const size_t count = problem->count;
     double *const *v = room->vector;
     struct bicgstab_result result = {.residual = vector_length(residual, count)};
-    for (int i = 0; i < VECTORS; i++)
+    for (int i = 0; i < BICGSTAB_VECTORS; i++)
         room->vector[i] = memory_grow(room->vector[i], &room->capacity[i], count, sizeof(double), "an iteration");
     memset(x, 0, count * sizeof *x);
     const double least = ROUND_OFF * result.residual;

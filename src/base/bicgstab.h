@@ -19,10 +19,12 @@ struct bicgstab_result {
     double residual; /* length of what is left of b */
 };
 
+enum { BICGSTAB_VECTORS = 8 };
+
 /* Room for the iteration; grows with the problems. Start with zeros. */
 struct bicgstab_room {
-    double *vector[8];
-    size_t capacity[8];
+    double *vector[BICGSTAB_VECTORS];
+    size_t capacity[BICGSTAB_VECTORS];
 };
 
 void bicgstab_close(struct bicgstab_room *room);

@@ -53,18 +53,19 @@ static struct polygon cut_within(const struct search *search, const struct node_
     const double middle[3] = {x[0][node], x[1][node], 0};
     struct polygon polygon = whole_box(low, high);
     int from[3], to[3], cell[3] = {0};
+    int32_t first, end;
     search_range(search, middle, reaches, from, to);
-    for (cell[1] = from[1]; cell[1] <= to[1]; cell[1]++)
-        for (cell[0] = from[0]; cell[0] <= to[0]; cell[0]++) {
-            const size_t c = search_cell(search, cell);
-            for (int32_t k = search->first[c]; k < search->first[c + 1]; k++) {
-                const int32_t other = search->node[k];
-                const double place[2] = {x[0][other], x[1][other]};
-                if ((size_t)other != node && fabs(place[0] - middle[0]) <= reaches * REACH * box->spacing[0] &&
-                    fabs(place[1] - middle[1]) <= reaches * REACH * box->spacing[1])
-                    clip(&polygon, middle, place);
-            }
+    cell[0] = from[0];
+    for (cell[1] = from[1]; cell[1] <= to[1]; cell[1]++) {
+        search_span(search, cell, to[0], &first, &end);
+        for (int32_t k = first; k < end; k++) {
+            const int32_t other = search->node[k];
+            const double place[2] = {search->place[0][k], search->place[1][k]};
+            if ((size_t)other != node && fabs(place[0] - middle[0]) <= reaches * REACH * box->spacing[0] &&
+                fabs(place[1] - middle[1]) <= reaches * REACH * box->spacing[1])
+                clip(&polygon, middle, place);
         }
+    }
     return polygon;
 }
 

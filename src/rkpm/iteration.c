@@ -132,16 +132,17 @@ void iteration_open(struct iteration *iteration, const struct body *body)
     iteration->is_held = memory_array(body->nodes, sizeof *iteration->is_held, "the linear system");
     iteration->place = memory_array((size_t)body->held.rows, sizeof *iteration->place, "the linear system");
     iteration->held = memory_array((size_t)body->held.rows, sizeof(double), "the linear system");
-    iteration->inverse = memory_array(count * d, sizeof(double), "the linear system");
     iteration->whole = memory_array(count, sizeof(double), "the linear system");
     iteration->image = memory_array(count, sizeof(double), "the linear system");
     iteration->residual = memory_array(count, sizeof(double), "the linear system");
     iteration->solution = memory_array(count, sizeof(double), "the linear system");
     order_held(iteration);
-    if (body->is_symmetric)
-        coarse_open(&iteration->coarse, body);
-    else
+    if (!body->is_symmetric) {
         incomplete_open(&iteration->incomplete, &body->matrix);
+        return;
+    }
+    iteration->inverse = memory_array(count * d, sizeof(double), "the linear system");
+    coarse_open(&iteration->coarse, body);
 }
 
 void iteration_close(struct iteration *iteration)
@@ -164,22 +165,32 @@ void iteration_close(struct iteration *iteration)
     bicgstab_close(&iteration->bicgstab);
 }
 
-bool iteration_factor(struct iteration *iteration)
+/* What symmetric matrices are preconditioned by; false where a node has no stiffness. */
+static bool invert_diagonal(struct iteration *iteration)
 {
     const struct body *body = iteration->body;
     const int d = body->dimension;
     bool good = true;
     for (int32_t row = 0; row < (int32_t)body->nodes; row++)
         good = sparse_invert(d, sparse_block(&body->matrix, row, row), iteration->inverse + (size_t)row * (size_t)(d * d)) && good;
+    if (good)
+        coarse_factor(&iteration->coarse, iteration->is_held);
+    return good;
+}
+
+bool iteration_factor(struct iteration *iteration)
+{
+    const struct body *body = iteration->body;
+    bool good = true;
     if (body->held.rows > 0) {
         banded_close(&iteration->rows);
         banded_close(&iteration->columns);
         open_held(iteration);
-        good = banded_factor(&iteration->rows) && banded_factor(&iteration->columns) && good;
+        good = banded_factor(&iteration->rows) && banded_factor(&iteration->columns);
     }
-    if (good && body->is_symmetric)
-        coarse_factor(&iteration->coarse, iteration->is_held);
-    return good && (body->is_symmetric || incomplete_factor(&iteration->incomplete, iteration->is_held));
+    if (!good)
+        return false;
+    return body->is_symmetric ? invert_diagonal(iteration) : incomplete_factor(&iteration->incomplete, iteration->is_held);
 }
 
 /* The solution to a right side, which becomes what is left of it; false where that is not small. */

@@ -18,7 +18,7 @@ struct iteration {
     bool *is_held;        /* per row */
     int32_t *place;       /* per held row: where it is in the order of the matrix's rows */
     struct banded rows, columns; /* L_BB and its transpose */
-    double *inverse;      /* of the blocks on the diagonal */
+    double *inverse;      /* of the blocks on the diagonal, of symmetric matrices */
     double *whole, *image, *held, *residual, *solution;
     struct conjugate_room conjugate;
     struct bicgstab_room bicgstab;

@@ -32,7 +32,7 @@ struct polynomials {
 
 /* Offsets, kernels and, where they are wanted, slopes. */
 THREADS_INLINE void set_kernels_of(const enum kernel_form form, const struct nodal *nodal, const double point[AXES], double reach, int n,
-                                   const bool wants_slopes, struct nodal_scratch *scratch, const int d)
+                                   bool wants_slopes, struct nodal_scratch *scratch, const int d)
 {
     double over_scale[AXES], over_radius[AXES];
     for (int a = 0; a < d; a++) {
@@ -59,7 +59,7 @@ THREADS_INLINE void set_kernels_of(const enum kernel_form form, const struct nod
     }
 }
 
-/* The same, with zeros behind them up to a whole number of lanes. The form, and whether slopes are wanted, are constants of each loop. */
+/* The same, with zeros behind them up to a whole number of lanes. The form is a constant of each loop. */
 THREADS_INLINE void set_kernels(const struct nodal *nodal, const double point[AXES], double reach, int n, bool wants_slopes,
                                 struct nodal_scratch *scratch, const int d)
 {
@@ -69,14 +69,12 @@ THREADS_INLINE void set_kernels(const struct nodal *nodal, const double point[AX
         for (int a = 0; a < d; a++)
             scratch->xi[a][k] = scratch->slope[a][k] = 0;
     }
-    if (form == KERNEL_CUBIC && wants_slopes)
-        set_kernels_of(KERNEL_CUBIC, nodal, point, reach, n, true, scratch, d);
-    else if (form == KERNEL_CUBIC)
-        set_kernels_of(KERNEL_CUBIC, nodal, point, reach, n, false, scratch, d);
+    if (form == KERNEL_CUBIC)
+        set_kernels_of(KERNEL_CUBIC, nodal, point, reach, n, wants_slopes, scratch, d);
     else if (form == KERNEL_QUINTIC)
-        set_kernels_of(KERNEL_QUINTIC, nodal, point, reach, n, true, scratch, d);
+        set_kernels_of(KERNEL_QUINTIC, nodal, point, reach, n, wants_slopes, scratch, d);
     else
-        set_kernels_of(KERNEL_EXPONENTIAL, nodal, point, reach, n, true, scratch, d);
+        set_kernels_of(KERNEL_EXPONENTIAL, nodal, point, reach, n, wants_slopes, scratch, d);
 }
 
 /* sum a b w in LANES partial sums, the same for every processor. */

@@ -18,11 +18,11 @@ struct nearness {
     int most_outside;
 };
 
-/* Takes the near ones of sorted nodes from `first` to before `last`, behind the n that there are. Those beyond the room are only counted. */
-THREADS_INLINE int take_near(const struct nodal *nodal, const struct nearness *near, int32_t first, int32_t last, int n, struct nodal_scratch *scratch,
+/* Takes the near ones of sorted nodes from `first` to before `end`, behind the n that there are. Those beyond the room are only counted. */
+THREADS_INLINE int take_near(const struct nodal *nodal, const struct nearness *near, int32_t first, int32_t end, int n, struct nodal_scratch *scratch,
                              const int d)
 {
-    for (int32_t k = first; k < last; k++) {
+    for (int32_t k = first; k < end; k++) {
         const int to = n < nodal->stride ? n : nodal->stride;
         int outside = 0;
         for (int a = 0; a < d; a++) {
@@ -44,6 +44,7 @@ THREADS_INLINE int find_neighbours(const struct nodal *nodal, size_t node, doubl
     struct nearness near = {.most_outside = slack == 0 ? 0 : nodal->cells ? d : 1};
     double far = 0;
     int from[3], to[3], cell[3], n = 0;
+    int32_t first, end;
     for (int a = 0; a < d; a++) {
         near.middle[a] = nodal->x[a][node];
         near.inner[a] = nodal->support.radius[a] * nodal->reach[node];
@@ -51,12 +52,11 @@ THREADS_INLINE int find_neighbours(const struct nodal *nodal, size_t node, doubl
         far = near.outer[a] > far * search->size[a] ? near.outer[a] / search->size[a] : far;
     }
     search_range(search, near.middle, far, from, to);
-    /* cells along the first axis follow each other */
     cell[0] = from[0];
     for (cell[2] = from[2]; cell[2] <= to[2]; cell[2]++)
-        for (cell[1] = from[1]; cell[1] <= to[1] && from[0] <= to[0]; cell[1]++) {
-            const size_t c = search_cell(search, cell);
-            n = take_near(nodal, &near, search->first[c], search->first[c + (size_t)(to[0] - from[0]) + 1], n, scratch, d);
+        for (cell[1] = from[1]; cell[1] <= to[1]; cell[1]++) {
+            search_span(search, cell, to[0], &first, &end);
+            n = take_near(nodal, &near, first, end, n, scratch, d);
         }
     return n;
 }

@@ -31,6 +31,14 @@ static inline size_t search_cell(const struct search *search, const int cell[3])
     return ((size_t)cell[2] * (size_t)search->cells[1] + (size_t)cell[1]) * (size_t)search->cells[0] + (size_t)cell[0];
 }
 
+/* Cells along the first axis follow each other: nodes of those from `cell` to `last` along it are node[from] to node[to - 1]. */
+static inline void search_span(const struct search *search, const int cell[3], int last, int32_t *from, int32_t *to)
+{
+    const size_t c = search_cell(search, cell);
+    *from = last < cell[0] ? 0 : search->first[c];
+    *to = last < cell[0] ? 0 : search->first[c + (size_t)(last - cell[0]) + 1];
+}
+
 /* The most nodes that any point has in its range. */
 size_t search_most(const struct search *search, double reach);
 

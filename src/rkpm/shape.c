@@ -92,15 +92,16 @@ static void find_nodes(struct rkpm_shape *shape, const double point[3])
 {
     const struct search *search = &shape->search;
     int from[3], to[3], cell[3];
+    int32_t first, end;
     search_range(search, point, shape->row.reach, from, to);
     shape->row.count = 0;
+    cell[0] = from[0];
     for (cell[2] = from[2]; cell[2] <= to[2]; cell[2]++)
-        for (cell[1] = from[1]; cell[1] <= to[1]; cell[1]++)
-            for (cell[0] = from[0]; cell[0] <= to[0]; cell[0]++) {
-                const size_t c = search_cell(search, cell);
-                for (int32_t k = search->first[c]; k < search->first[c + 1]; k++)
-                    take_node(shape, search->node[k], point);
-            }
+        for (cell[1] = from[1]; cell[1] <= to[1]; cell[1]++) {
+            search_span(search, cell, to[0], &first, &end);
+            for (int32_t k = first; k < end; k++)
+                take_node(shape, search->node[k], point);
+        }
 }
 
 /* --- the moment matrix --- */

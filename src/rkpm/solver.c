@@ -67,10 +67,8 @@ void solver_open(struct solver *solver, const struct body *body, double most_wor
     solver->kind = choose_kind(solver, most_work);
     solver->unknown = memory_array((size_t)solver->count, sizeof(double), "the linear system");
     solver->bytes = (double)solver->count * sizeof(double) * (solver->kind == SOLVER_ENVELOPE ? solver->width + 1.0 : 3.0 * solver->width + 1);
-    solver->unknowns = solver->count;
     if (!solver_iterates(solver))
         return;
-    solver->unknowns = (int32_t)body->nodes * body->dimension;
     solver->bytes = (double)body->matrix.first[body->nodes] * body->dimension * body->dimension * sizeof(double);
     iteration_open(&solver->iteration, body);
 }

@@ -21,7 +21,6 @@ struct solver {
     struct banded banded;
     struct iteration iteration;
     double *unknown;
-    int32_t unknowns;    /* an iteration has none for multipliers */
     bool has_given_up;   /* an iteration did not get there: eliminated since */
     double bytes;
 };
@@ -33,6 +32,12 @@ static const double SOLVER_MOST_WORK = 2e9;
 static inline bool solver_iterates(const struct solver *solver)
 {
     return solver->kind == SOLVER_CONJUGATE || solver->kind == SOLVER_BICGSTAB;
+}
+
+/* An iteration has none for multipliers. */
+static inline int32_t solver_unknowns(const struct solver *solver)
+{
+    return solver_iterates(solver) ? (int32_t)solver->body->nodes * solver->body->dimension : solver->count;
 }
 
 /* Makes room for systems of a body. */
